@@ -28,6 +28,9 @@ typedef struct bad_case {
 #define VIEW "\"bufferViews\":[{\"buffer\":0,\"byteLength\":120}],"
 #define ACCESSOR(text) VIEW "\"accessors\":[{" text "}]"
 #define VEC3 "\"type\":\"VEC3\",\"componentType\":5126"
+#define TETRAHEDRON_VIEWS                                                                          \
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},{\"buffer\":0,\"byteOffset\":48,"           \
+    "\"byteLength\":48}],"
 #define NODES(text) TETRAHEDRON "," ONE_SCENE ",\"nodes\":[" text "]"
 #define PRIMITIVE(text) TETRAHEDRON_STORAGE ",\"meshes\":[{\"primitives\":[{" text "}]}]" NODE
 #define SPARSE(text) ACCESSOR("\"count\":9,\"bufferView\":0," VEC3 ",\"sparse\":{" text "}")
@@ -53,11 +56,8 @@ static const bad_case cases[] = {
      "bufferViews[0].byteLength: 18446744073709551615 is out of range"},
     {"\"bufferViews\":[{\"buffer\":0,\"byteLength\":2,\"byteOffset\":119}]",
      "2 bytes from byte 119 run past the end of buffers[0], which has 120 bytes"},
-    {"\"bufferViews\":[{\"buffer\":0,\"byteLength\":99,\"byteStride\":6}]",
-     "bufferViews[0].byteStride: not a multiple of 4"},
     {"\"bufferViews\":[1]", "bufferViews[0]: 1 stands where an object must stand"},
     {"\"bufferViews\":{}", "bufferViews: an object stands where an array must stand"},
-    {"\"meshes\":null", "meshes: null stands where an array must stand"},
     // Accessors.
     {ACCESSOR("\"count\":1," VEC3 ",\"bufferView\":-1"),
      "accessors[0].bufferView: -1: there is no"},
@@ -105,7 +105,12 @@ static const bad_case cases[] = {
     {PRIMITIVE("\"attributes\":{\"POSITION\":2}"),
      "attributes.POSITION: the accessor holds SCALAR"},
     {PRIMITIVE("\"attributes\":{\"POSITION\":0,\"NORMAL\":2}"),
-     "attributes.NORMAL: accessors[2] has 12 elements, POSITION has 4"},
+     "attributes.NORMAL: the accessor holds SCALAR"},
+    {TETRAHEDRON_VIEWS "\"accessors\":[{\"bufferView\":0,\"count\":4," VEC3
+                       "},{\"bufferView\":1,\"count\":3," VEC3 "}]"
+                       ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
+                       "\"NORMAL\":1}}]}]" NODE,
+     "meshes[0].primitives[0].attributes.NORMAL: accessors[1] has 3 elements, POSITION has 4"},
     {PRIMITIVE("\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":-1}"),
      "attributes.TEXCOORD_0: -1: the"},
     {PRIMITIVE("\"attributes\":{\"POSITION\":0},\"indices\":0"),
@@ -133,12 +138,8 @@ static const bad_case cases[] = {
      "nodes[1].children[0]: nodes[2] is a child of nodes[0] already"},
     {NODES("{\"children\":[1,1]},{}"), "nodes[0].children[1]: nodes[1] stands there twice"},
     {NODES("{\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0]}"), "nodes[0].matrix: 15 elements"},
-    {NODES("{\"matrix\":[1,0,0,0,0,1,0,0,0,0,0,0,0,0,0,1]}"), "nodes[0].matrix: singular"},
-    {NODES("{\"matrix\":[1,2,3,0,2,4,6,0,0,0,1,0,0,0,0,1]}"), "nodes[0].matrix: singular"},
     {NODES("{\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,1,0,0,0,1]}"), "nodes[0].matrix: its last row"},
     {NODES("{\"matrix\":[1,0,0,0,0,\"1\",0,0,0,0,1,0,0,0,0,1]}"), "nodes[0].matrix[5]: the text"},
-    {NODES("{\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1],\"scale\":[1,1,1]}"),
-     "nodes[0]: has a matrix and a scale"},
     {NODES("{\"scale\":[1,1]}"), "nodes[0].scale: 2 elements"},
     {NODES("{\"translation\":[1,null,1]}"), "nodes[0].translation[1]: null stands where"},
     {NODES("{\"rotation\":[0,0,0,0]}"), "nodes[0].rotation: not a rotation"},
@@ -146,7 +147,6 @@ static const bad_case cases[] = {
     {NODES(
          "{\"mesh\":0,\"scale\":[1e300,1,1],\"children\":[1]},{\"mesh\":0,\"scale\":[1e300,1,1]}"),
      "its mesh reaches farther than"},
-    {NODES("{\"name\":5}"), "nodes[0].name: 5 stands where a text must stand"},
     {NODES("{\"extensions\":{\"EXT_mesh_gpu_instancing\":{}}}"),
      "EXT_mesh_gpu_instancing.attributes: missing"},
     {NODES("{\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{"
@@ -158,9 +158,6 @@ static const bad_case cases[] = {
     // Scenes.
     {TETRAHEDRON ",\"nodes\":[{}],\"scenes\":[{\"nodes\":[1]}]",
      "scenes[0].nodes[0]: 1: there is no"},
-    {TETRAHEDRON ",\"nodes\":[{}],\"scenes\":[{\"nodes\":[0,0]}]", "nodes[0] stands there twice"},
-    {TETRAHEDRON ",\"nodes\":[{\"children\":[1]},{}],\"scenes\":[{\"nodes\":[0,1]}]",
-     "scenes[0].nodes[1]: nodes[1] is a child of nodes[0] (a scene lists root nodes only)"},
     {GOOD ",\"scene\":1", "scene: 1: there is no such scene (the file has 1 scene"},
     // Cameras.
     {CAMERA("\"type\":\"fisheye\""), "cameras[0].type: \"fisheye\" is none"},
@@ -169,18 +166,10 @@ static const bad_case cases[] = {
     {CAMERA("\"type\":\"perspective\",\"perspective\":{\"yfov\":3.2}"), "yfov: 3.2 is no vertical"},
     {CAMERA("\"type\":\"orthographic\",\"orthographic\":{\"ymag\":0}"),
      "ymag: 0: the camera sees n"},
-    // Extensions, images, textures, skins.
+    // Extensions, skins.
     {GOOD ",\"extensionsRequired\":[\"VENDOR_of_the_future\"]",
      "\"VENDOR_of_the_future\" is required by the file and not supported"},
     {GOOD ",\"extensionsRequired\":\"KHR_materials_ior\"", "extensionsRequired: the text"},
-    {GOOD ",\"images\":[{}]", "images[0]: neither a uri nor a bufferView"},
-    {GOOD ",\"images\":[{\"uri\":\"http://example.org/a.png\"}]",
-     "images[0].uri: \"http://example.org/a.png\": http: is not read"},
-    {GOOD ",\"images\":[{\"uri\":\"/dev/zero\"}]", "images[0].uri: \"/dev/zero\" lies outside"},
-    {GOOD ",\"images\":[{\"uri\":\".\"}]", "images[0].uri: \".\": it is a folder"},
-    {GOOD ",\"images\":[{\"bufferView\":9}]",
-     "images[0].bufferView: 9: there is no such bufferView"},
-    {GOOD ",\"textures\":[{\"source\":0}]", "textures[0].source: 0: there is no such image"},
     {GOOD ",\"skins\":[{\"joints\":[]}]", "skins[0].joints: empty"},
     {GOOD ",\"skins\":[{\"joints\":[0,7]}]", "skins[0].joints[1]: 7: there is no such node"},
     {GOOD ",\"skins\":[{\"joints\":[0],\"inverseBindMatrices\":0}]",
@@ -197,11 +186,8 @@ static const bad_case cases[] = {
      "primitives[0].targets[0].POSITION: the accessor holds SCALAR"},
     {PRIMITIVE("\"attributes\":{\"POSITION\":0},\"targets\":[3]"),
      "primitives[0].targets[0]: 3 stands where an object must stand"},
-    {MORPH("\"weights\":[1]", ""), "meshes[0].weights: 1 number for 2 morph targets"},
     {MORPH("\"weights\":[1,null]", ""), "meshes[0].weights[1]: null stands where"},
     {MORPH("\"weights\":{}", ""), "meshes[0].weights: an object stands where"},
-    {MORPH("\"name\":\"m\"", ",\"weights\":[0,0,0]"),
-     "nodes[0].weights: 3 numbers for 2 morph targets"},
     {GOOD ",\"skins\":[{}]", "skins[0].joints: missing"},
 };
 
@@ -273,16 +259,17 @@ static void what_is_no_regular_file_below_the_folder_is_refused(void **state)
     assert_int_equal(symlink("/dev/zero", folder_path(folder, "link")), 0);
     write_bytes(folder, "short.bin", "abc", 3);
     static const bad_case uris[] = {
-        {"missing.bin", "\"missing.bin\" cannot be opened: No such file"},
+        {"missing.bin", "\"missing.bin\": cannot be opened: No such file"},
         {"sub", "\"sub\": it is a folder"},
         {"fifo", "\"fifo\": it is not a regular file"},
-        {"link", "\"link\" lies outside the scene's folder"},
-        {"%2e%2e/%2E%2E/etc/hostname", "etc/hostname\" "},
-        {"../..", "\"../..\" lies outside"},
+        {"link", "\"link\": lies outside the scene's folder"},
+        {"%2e%2e/%2E%2E/etc/hostname", "etc/hostname\": "},
+        {"..\\\\..", "\"..\\..\": lies outside"},
+        {"../..", "\"../..\": lies outside"},
         {"file:///etc/hostname", "file: is not read"},
         {"https://a.b/c.bin", "https: is not read"},
         {"short.bin%00.png", "names no file"},
-        {"", "\"\" names no file"},
+        {"", "\"\": names no file"},
         {"short.bin", "\"short.bin\" has 3 bytes, byteLength says 120"},
         {"data:base64", "a data URI without a comma"},
         {"data:;base64,AA*A", "character 15, \"*\", is no base64 digit"},
@@ -301,6 +288,11 @@ static void what_is_no_regular_file_below_the_folder_is_refused(void **state)
     assert_refused(folder_path(folder, "none.gltf"), "cannot be opened: No such file");
 }
 
+// One number, in the first bytes of buffers[0].
+#define FLOAT                                                                                      \
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":4}],\"accessors\":[{\"bufferView\":0,"          \
+    "\"componentType\":5126,\"count\":1,\"type\":\"SCALAR\"}]"
+
 static void texts_that_are_not_json_or_not_gltf_are_named(void **state)
 {
     static const bad_case texts[] = {
@@ -311,13 +303,14 @@ static void texts_that_are_not_json_or_not_gltf_are_named(void **state)
         {"{\"asset\":1}", "asset: 1 stands where an object must stand"},
         {"{\"asset\":{}}", "asset.version: missing"},
         {"{\"asset\":{\"version\":\"1.0\"}}", "asset.version: \"1.0\" is not supported"},
-        {"{\"asset\":{\"version\":2}}", "asset.version: 2 stands where a text must stand"},
         {"{\"asset\":{\"version\":\"2.1\",\"minVersion\":\"3.0\"}}",
          "asset.minVersion: \"3.0\" is"},
         {"{\"asset\":{\"version\":\"2.0\"},\"scene\":1e999}", "not JSON that can be used"},
-        {"{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":4}]}",
+        {"{\"asset\":{\"version\":3}}", "asset.version: \"3\" is not supported"},
+        {"{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":4}]," FLOAT "}",
          "buffers[0].uri: missing (only a .glb"},
-        {"{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":9e15,\"uri\":\"x\"}]}",
+        {"{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":9e15,\"uri\":\"x\"}]," FLOAT
+         "}",
          "buffers[0].byteLength: the buffers have more than 8 GiB"},
     };
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
@@ -492,9 +485,9 @@ static void damaged_files_are_refused_or_loaded(void **state)
 static void the_folder_of_bad_files_gets_a_line_each(void **state)
 {
     (void)state;
-    // These files are odd but valid.
-    static const char *good[] = {"00_valid.gltf", "glb_zero_bin.glb", "node_chain_50k.gltf",
-                                 "node_scale_zero.gltf"};
+    // These files are odd but valid, or have a fault only in an image that nothing uses.
+    static const char *good[] = {"00_valid.gltf", "glb_zero_bin.glb", "image_uri_directory.gltf",
+                                 "node_chain_50k.gltf", "node_scale_zero.gltf"};
     const char *path = GLINT_SOURCE_DIR "/../shared/assets/bad";
     DIR *folder = opendir(path);
     if (folder == NULL) {

@@ -1,4 +1,4 @@
-// Tests punctual lights in files: parsing, places by nodes, animation, and refusals.
+// Tests punctual lights in files: parsing, places by nodes, animation, and faults.
 #include "scene/scene.h"
 #include "support/gltf_text.h"
 #include "support/scratch.h"
@@ -158,71 +158,100 @@ static void lights_move_with_their_nodes(void **state)
     free(text);
 }
 
-// ---- Refusals -----------------------------------------------------------------------------------
+// ---- Faults -------------------------------------------------------------------------------------
 
-typedef struct bad_case {
-    const char *rest, *said;
-} bad_case;
-
-#define NODE ",\"nodes\":[{\"mesh\":0}]," ONE_SCENE
+#define NODE ",\"nodes\":[{\"mesh\":0," LIT "0}}}]," ONE_SCENE
 #define LIGHT(text) TETRAHEDRON NODE LIGHTS("{" text "}")
 #define SPOT(text) LIGHT("\"type\":\"spot\",\"spot\":{" text "}")
-#define AT "extensions.KHR_lights_punctual."
 
-static const bad_case cases[] = {
-    {TETRAHEDRON NODE ",\"extensions\":{\"KHR_lights_punctual\":{}}", AT "lights: missing"},
-    {TETRAHEDRON NODE ",\"extensions\":{\"KHR_lights_punctual\":[]}",
-     "KHR_lights_punctual: an array"},
-    {TETRAHEDRON NODE LIGHTS("7"), AT "lights[0]: 7 stands where an object must stand"},
-    {LIGHT(""), AT "lights[0].type: \"\" is none (directional, point or spot)"},
-    {LIGHT("\"type\":\"area\""), AT "lights[0].type: \"area\" is none"},
-    {LIGHT("\"type\":\"point\",\"intensity\":-1"), AT "lights[0].intensity: -1 is less than 0"},
-    {LIGHT("\"type\":\"point\",\"intensity\":1e999"), "not JSON that can be used"},
-    {LIGHT("\"type\":\"point\",\"intensity\":null"), AT "lights[0].intensity: null stands where"},
-    {LIGHT("\"type\":\"point\",\"range\":0"), AT "lights[0].range: 0: it must be more than 0"},
-    {LIGHT("\"type\":\"spot\",\"spot\":{},\"range\":-2"), AT "lights[0].range: -2: it must"},
-    {LIGHT("\"type\":\"directional\",\"range\":\"far\""), AT "lights[0].range: the text \"far\""},
-    {LIGHT("\"type\":\"point\",\"color\":[1,1]"), AT "lights[0].color: it must be an array of 3"},
-    {LIGHT("\"type\":\"point\",\"color\":1"), AT "lights[0].color: it must be an array of 3"},
-    {LIGHT("\"type\":\"point\",\"color\":[1,-0.5,1]"),
-     AT "lights[0].color[1]: -0.5 is less than 0"},
-    {LIGHT("\"type\":\"point\",\"name\":1"), AT "lights[0].name: 1 stands where a text"},
-    {LIGHT("\"type\":\"spot\""), AT "lights[0].spot: missing"},
-    {LIGHT("\"type\":\"spot\",\"spot\":1"), AT "lights[0].spot: 1 stands where an object"},
-    {SPOT("\"innerConeAngle\":-0.1"), AT "lights[0].spot.innerConeAngle: -0.1 is less than 0"},
-    {SPOT("\"innerConeAngle\":0.8"), "innerConeAngle: 0.8 is not less than the outerConeAngle"},
-    {SPOT("\"innerConeAngle\":0.3,\"outerConeAngle\":0.3"),
-     "innerConeAngle: 0.3 is not less than the outerConeAngle, 0.3"},
-    {SPOT("\"outerConeAngle\":0"), "innerConeAngle: 0 is not less than the outerConeAngle, 0"},
-    {SPOT("\"outerConeAngle\":1.6"), AT "lights[0].spot.outerConeAngle: 1.6 is outside [0, 1.5707"},
-    {TETRAHEDRON ",\"nodes\":[{\"mesh\":0," LIT "0}}}]," ONE_SCENE,
-     "nodes[0]." AT "light: 0: there is no such light (the file has none"},
-    {TETRAHEDRON ",\"nodes\":[{\"mesh\":0," LIT "1}}}]," ONE_SCENE LIGHTS("{\"type\":\"point\"}"),
-     "nodes[0]." AT "light: 1: there is no such light (the file has 1 light"},
-    {TETRAHEDRON ",\"nodes\":[{\"mesh\":0," LIT "-1}}}]," ONE_SCENE LIGHTS("{\"type\":\"point\"}"),
-     "nodes[0]." AT "light: -1: there is no such light"},
-    {TETRAHEDRON
-     ",\"nodes\":[{\"mesh\":0,\"extensions\":{\"KHR_lights_punctual\":{}}}]," ONE_SCENE LIGHTS(
-         "{\"type\":\"point\"}"),
-     "nodes[0]." AT "light: missing"},
-};
-
-static void every_mistake_is_named(void **state)
+// Loads a file, which must say one line beside the one about lights' size. `lights`: how many are
+// there.
+static glint_scene load_faulty(const char *folder, const char *rest, const char *said,
+                               size_t lights)
 {
+    char *text = gltf_text(&the_tetrahedron, sizeof the_tetrahedron, rest);
+    glint_scene scene;
+    glint_warnings warnings = {0};
+    glint_error error = {0};
+    if (load_text(folder, text, &scene, &warnings, &error) != GLINT_OK) {
+        fail_msg("%s: refused: %s", rest, error.message);
+    }
+    if (warnings.count != (said != NULL ? 2 : 1) ||
+        (said != NULL && !any_warning_has(&warnings, said))) {
+        fail_msg("%s: said \"%s\", expected \"%s\"", rest, warnings.texts[warnings.count - 1],
+                 said);
+    }
+    assert_true(scene.triangle_count == 4 && scene.light_count == lights);
+    glint_warnings_free(&warnings);
+    free(text);
+    return scene;
+}
+
+#define LEFT_OUT "; the light is left out"
+
+static void lights_that_cannot_be_read_are_left_out(void **state)
+{
+    static const char *const cases[][2] = {
+        {LIGHT(""), "lights[0]: type \"\" is none (directional, point or spot)" LEFT_OUT},
+        {LIGHT("\"type\":\"area\""), "lights[0]: type \"area\" is none"},
+        {TETRAHEDRON NODE LIGHTS("7"), "lights[0]: 7 stands where an object must stand" LEFT_OUT},
+        {LIGHT("\"type\":\"point\",\"intensity\":-1"), "intensity is less than 0" LEFT_OUT},
+        {LIGHT("\"type\":\"directional\",\"range\":\"far\""), "the text \"far\" stands where"},
+        {LIGHT("\"type\":\"point\",\"color\":1"), "1 stands where an array"},
+        {LIGHT("\"type\":\"point\",\"color\":[1,-0.5,1]"), "color is less than 0" LEFT_OUT},
+        {LIGHT("\"type\":\"spot\""), "missing"},
+        {LIGHT("\"type\":\"spot\",\"spot\":1"), "1 stands where an object"},
+        {TETRAHEDRON NODE, "nodes[0]: 0: there is no such light (the file has none"},
+        {TETRAHEDRON NODE ",\"extensions\":{\"KHR_lights_punctual\":{}}",
+         "nodes[0]: 0: there is no such light"},
+        {TETRAHEDRON NODE ",\"extensions\":{\"KHR_lights_punctual\":7}",
+         "nodes[0]: 0: there is no such light"},
+        {TETRAHEDRON ",\"nodes\":[{\"mesh\":0," LIT
+                     "-1}}}]," ONE_SCENE LIGHTS("{\"type\":\"point\"}"),
+         "nodes[0]: -1: there is no such light (the file has 1 light, counted from 0); the node "
+         "has "
+         "no light"},
+        {TETRAHEDRON
+         ",\"nodes\":[{\"mesh\":0,\"extensions\":{\"KHR_lights_punctual\":{}}}]," ONE_SCENE LIGHTS(
+             "{\"type\":\"point\"}"),
+         NULL},
+    };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char *text = gltf_text(&the_tetrahedron, sizeof the_tetrahedron, cases[i].rest);
-        glint_scene scene;
-        glint_warnings warnings = {0};
-        glint_error error = {0};
-        const glint_status status = load_text(*state, text, &scene, &warnings, &error);
-        if (status != GLINT_BAD_INPUT || strstr(error.message, cases[i].said) == NULL) {
-            fail_msg("said \"%s\" (%d), expected \"%s\"", error.message, (int)status,
-                     cases[i].said);
+        glint_scene scene = load_faulty(*state, cases[i][0], cases[i][1], 0);
+        glint_scene_free(&scene);
+    }
+}
+
+static void small_faults_of_lights_are_mended(void **state)
+{
+    static const struct {
+        const char *rest, *said;
+        double range, inner, outer;
+    } cases[] = {
+        {LIGHT("\"type\":\"point\",\"intensity\":null"), NULL, INFINITY, 0, 0},
+        {LIGHT("\"type\":\"point\",\"name\":1"), NULL, INFINITY, 0, 0},
+        {LIGHT("\"type\":\"point\",\"range\":0"),
+         "lights[0]: range is no distance (it counts as unlimited)", INFINITY, 0, 0},
+        {LIGHT("\"type\":\"point\",\"range\":-2"), "range is no distance", INFINITY, 0, 0},
+        {SPOT("\"innerConeAngle\":0.3,\"outerConeAngle\":0.3"), NULL, INFINITY, 0.3, 0.3},
+        {SPOT("\"innerConeAngle\":0.5,\"outerConeAngle\":0.3"),
+         "lights[0]: innerConeAngle is out of range (the nearest angle within counts)", INFINITY,
+         0.3, 0.3},
+        {SPOT("\"innerConeAngle\":-0.1"), "innerConeAngle is out of range", INFINITY, 0,
+         0.78539816339744831},
+        {SPOT("\"outerConeAngle\":1.6"), "outerConeAngle is out of range", INFINITY, 0,
+         1.5707963267948966},
+        {SPOT("\"outerConeAngle\":1.57079637"), NULL, INFINITY, 0, 1.5707963267948966}, // a float
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        glint_scene scene = load_faulty(*state, cases[i].rest, cases[i].said, 1);
+        assert_true(scene.lights[0].range == cases[i].range);
+        assert_true(scene.lights[0].color[0] == 1);
+        if (scene.lights[0].kind == GLINT_PUNCTUAL_SPOT) {
+            assert_true(fabs(scene.lights[0].inner_angle - cases[i].inner) < 1e-15);
+            assert_true(fabs(scene.lights[0].outer_angle - cases[i].outer) < 1e-15);
         }
-        assert_true(strchr(error.message, '\n') == NULL && warnings.count == 0);
-        assert_true(scene.light_count == 0 && scene.lights == NULL);
-        glint_error_free(&error);
-        free(text);
+        glint_scene_free(&scene);
     }
 }
 
@@ -234,7 +263,8 @@ int main(void)
         IN_A_FOLDER(nodes_place_lights_and_scale_none),
         IN_A_FOLDER(lights_that_shine_nowhere_are_left_out),
         IN_A_FOLDER(lights_move_with_their_nodes),
-        IN_A_FOLDER(every_mistake_is_named),
+        IN_A_FOLDER(lights_that_cannot_be_read_are_left_out),
+        IN_A_FOLDER(small_faults_of_lights_are_mended),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -323,44 +323,73 @@ static void a_variant_gives_primitives_their_materials(void **state)
     assert_materials(*state, "1", (const int[]){GREEN, RED, DEFAULT});
 }
 
-static void bad_variants_are_refused_though_none_is_chosen(void **state)
+// What is wrong in a variant's materials is told of where a variant is chosen.
+static void bad_mappings_are_left_out(void **state)
 {
 #define MAPPED(text) MESHES(PRIMITIVE("," text) "," PRIMITIVE("") "," PRIMITIVE(""))
-#define AT "meshes[0].primitives[0].extensions.KHR_materials_variants.mappings"
     static const struct {
         const char *rest, *said;
     } bad[] = {
         {MAPPED(MAPPINGS(MAPPING("3", "0"))) VARIANTS(TWO_NAMES),
-         AT "[0].material: 3: there is no such material (the file has 3 materials"},
-        {MAPPED(MAPPINGS(MAPPING("-1", "0"))) VARIANTS(TWO_NAMES), AT "[0].material: -1: there"},
-        {MAPPED(MAPPINGS(MAPPING("0.5", "0"))) VARIANTS(TWO_NAMES), AT "[0].material: 0.5: there"},
+         "3: there is no such material (the file has 3 materials"},
+        {MAPPED(MAPPINGS(MAPPING("-1", "0"))) VARIANTS(TWO_NAMES), "-1: there"},
+        {MAPPED(MAPPINGS(MAPPING("0.5", "0"))) VARIANTS(TWO_NAMES), "0.5: there"},
         {MAPPED(MAPPINGS(MAPPING("0", "2"))) VARIANTS(TWO_NAMES),
-         AT "[0].variants[0]: 2: there is no such variant (the file has 2 variants"},
-        {MAPPED(MAPPINGS(MAPPING("0", "1e300"))) VARIANTS(TWO_NAMES), AT "[0].variants[0]: 1e"},
-        {MAPPED(MAPPINGS(MAPPING("0", "0"))), AT "[0].variants[0]: 0: there is no such variant"},
+         "2: there is no such variant (the file has 2 variants"},
+        {MAPPED(MAPPINGS(MAPPING("0", "1e300"))) VARIANTS(TWO_NAMES), "1e+300: there is no such"},
         {MAPPED(MAPPINGS(MAPPING("0", "0") "," MAPPING("1", "1,0"))) VARIANTS(TWO_NAMES),
-         AT "[1].variants[1]: variant 0 has a material already"},
-        {MAPPED(MAPPINGS("{\"variants\":[0]}")) VARIANTS(TWO_NAMES), AT "[0].material: missing"},
-        {MAPPED(MAPPINGS("{\"material\":0}")) VARIANTS(TWO_NAMES), AT "[0].variants: missing"},
-        {MAPPED(MAPPINGS("7")) VARIANTS(TWO_NAMES), AT "[0]: 7 stands where an object must"},
-        {MAPPED("\"extensions\":{\"KHR_materials_variants\":{}}") VARIANTS(TWO_NAMES),
-         AT ": missing"},
-        {MAPPED("\"extensions\":{\"KHR_materials_variants\":[]}") VARIANTS(TWO_NAMES),
-         "KHR_materials_variants: an array stands where an object must"},
-        {MAPPED("\"mode\":4") VARIANTS("{}"), "variants[0].name: missing"},
-        {MAPPED("\"mode\":4") VARIANTS("{\"name\":1}"), "variants[0].name: 1 stands where"},
-        {MAPPED("\"mode\":4") VARIANTS("null"), "variants[0]: null stands where an object must"},
-        {MAPPED("\"mode\":4") ",\"extensions\":{\"KHR_materials_variants\":{}}",
-         "extensions.KHR_materials_variants.variants: missing"},
-        {MAPPED("\"mode\":4") ",\"extensions\":[]", "extensions: an array stands where"},
+         "variant 0 has a material already"},
+        {MAPPED(MAPPINGS("{\"variants\":[0]}")) VARIANTS(TWO_NAMES), "missing"},
+        {MAPPED(MAPPINGS("{\"material\":0}")) VARIANTS(TWO_NAMES), "missing"},
+        {MAPPED(MAPPINGS("7")) VARIANTS(TWO_NAMES), "7 stands where an object must"},
+        {MAPPED("\"extensions\":{\"KHR_materials_variants\":{}}") VARIANTS(TWO_NAMES), "missing"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        char *text = gltf_text(&the_tetrahedron, sizeof the_tetrahedron, bad[i].rest);
+        const char *path = write_bytes(*state, "test.gltf", text, strlen(text));
+        for (int chosen = 0; chosen < 2; chosen++) {
+            glint_scene scene;
+            glint_warnings warnings = {0};
+            const glint_scene_options options = {.variant = chosen ? "day" : NULL};
+            assert_int_equal(glint_scene_load(path, &options, &scene, &warnings, NULL), GLINT_OK);
+            assert_int_equal(warnings.count, chosen);
+            assert_true(!chosen || (any_warning_has(&warnings, "meshes[0].primitives[0]: ") &&
+                                    any_warning_has(&warnings, bad[i].said) &&
+                                    any_warning_has(&warnings, "; further materials of variants")));
+            glint_warnings_free(&warnings);
+            glint_scene_free(&scene);
+        }
+        free(text);
+    }
+}
+
+// A file without variants that can be read is a file without variants.
+static void bad_variants_are_none(void **state)
+{
+    static const struct {
+        const char *rest;
+        bool is_list;
+    } lists[] = {
+        {MAPPED("\"mode\":4") VARIANTS("{}"), true},
+        {MAPPED("\"mode\":4") VARIANTS("{\"name\":1}"), true},
+        {MAPPED("\"mode\":4") VARIANTS("7"), false},
+        {MAPPED("\"mode\":4") ",\"extensions\":{\"KHR_materials_variants\":{}}", false},
+        {MAPPED("\"mode\":4") ",\"extensions\":[]", false},
+        {MAPPED(MAPPINGS(MAPPING("0", "0"))), false},
+    };
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         glint_scene scene;
         glint_error error = {0};
-        assert_int_equal(load(*state, bad[i].rest, NULL, &scene, &error), GLINT_BAD_INPUT);
-        if (strstr(error.message, bad[i].said) == NULL) {
-            fail_msg("%s", error.message);
-        }
+        assert_int_equal(load(*state, lists[i].rest, NULL, &scene, &error), GLINT_OK);
+        assert_int_equal(scene.variant_count, lists[i].is_list);
+        glint_scene_free(&scene);
+        const glint_scene_options options = {.variant = "0"};
+        const glint_status status = load(*state, lists[i].rest, &options, &scene, &error);
+        assert_int_equal(status, lists[i].is_list ? GLINT_OK : GLINT_BAD_INPUT);
+        assert_int_equal(strstr(error.message, "there is no material variant \"0\" (the file has "
+                                               "none)") != NULL,
+                         !lists[i].is_list);
+        glint_scene_free(&scene);
     }
 }
 
@@ -440,7 +469,8 @@ int main(void)
         cmocka_unit_test(what_changes_nothing_is_refused),
         cmocka_unit_test(there_is_room_for_so_many),
         cmocka_unit_test(a_variant_gives_primitives_their_materials),
-        cmocka_unit_test(bad_variants_are_refused_though_none_is_chosen),
+        cmocka_unit_test(bad_mappings_are_left_out),
+        cmocka_unit_test(bad_variants_are_none),
         cmocka_unit_test(an_unknown_variant_is_refused_with_those_there_are),
         cmocka_unit_test(overrides_know_materials_that_nothing_uses),
         cmocka_unit_test(every_scene_of_a_source_is_overridden),

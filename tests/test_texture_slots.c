@@ -264,30 +264,65 @@ static void alpha_is_kept_where_the_background_is_left_out(void **state)
 
 // ---- Refusals and substitutes -------------------------------------------------------------------
 
-static void unreadable_textures_become_grey_paint(void **state)
+static void unreadable_textures_leave_their_factors(void **state)
 {
     scratch_write("broken.png", "\x89PNG\r\n\x1a\nnothing more", -1);
     static const char *const images[] = {"broken.png", "missing.png"};
+    const glint_settings settings = test_small_frame(1);
+    test_frame plain;
+    render_plane(textured_plane_load(*state, MESH("") "\"materials\":[{\"pbrMetallicRoughness\":{"
+                                                      "\"baseColorFactor\":[0.25,0.5,1,1]}}]"),
+                 &settings, &plain);
     for (int i = 0; i < 2; i++) {
         char rest[6000];
         snprintf(rest, sizeof rest,
                  PLANE MESH("") "\"images\":[{\"uri\":\"%s\"}],\"textures\":[{\"source\":0}],"
                                 "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":"
-                                "{\"index\":0}}}]",
+                                "{\"index\":0},\"baseColorFactor\":[0.25,0.5,1,1]}}]",
                  images[i]);
         char *text = gltf_text(&the_plane, sizeof the_plane, rest);
         glint_scene scene;
         glint_warnings warnings = {0};
         glint_error error = {0};
         assert_int_equal(load_text(*state, text, &scene, &warnings, &error), GLINT_OK);
-        assert_true(any_warning_has(&warnings, "materials[0]: baseColorTexture: images[0] \""));
-        assert_true(any_warning_has(&warnings, "; the surface is rendered as grey paint"));
-        assert_true(scene.materials[0].metallic == 0 && scene.materials[0].base_color[1] == 0.5F);
-        assert_int_equal(scene.materials[0].textures[GLINT_TEXTURE_BASE_COLOR].image, 0);
-        glint_scene_free(&scene);
+        assert_int_equal(warnings.count, 1);
+        assert_true(any_warning_has(&warnings, ": images[0] \""));
+        assert_true(any_warning_has(&warnings, "; the maps that need it are left out"));
+        test_frame frame;
+        render_plane(scene, &settings, &frame);
+        assert_memory_equal(frame.exact, plain.exact, 4 * 61 * 43 * sizeof *frame.exact);
+        test_frame_free(&frame);
         glint_warnings_free(&warnings);
         free(text);
     }
+    test_frame_free(&plain);
+}
+
+// KHR_materials_ior: an index of 0 is infinite, so that smooth paint is a white mirror. glint takes
+// 1e5 for it: of the light 2 (c + 1/c)/1e5 passes, where c is the cosine to the normal.
+static void an_index_of_zero_reflects_all(void **state)
+{
+    const glint_settings settings = test_small_frame(1);
+    test_frame paint, mirror;
+    render_plane(textured_plane_load(
+                     *state,
+                     MESH("") "\"materials\":[{\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
+                              "\"roughnessFactor\":0,\"baseColorFactor\":[0,0,0,1]},"
+                              "\"extensions\":{\"KHR_materials_ior\":{\"ior\":0}}}]"),
+                 &settings, &paint);
+    render_plane(textured_plane_load(*state, MESH("") "\"materials\":[{\"pbrMetallicRoughness\":{"
+                                                      "\"roughnessFactor\":0}}]"),
+                 &settings, &mirror);
+    double least = 1;
+    for (int i = 0; i < 61 * 43; i++) {
+        meeting m;
+        least = textured_plane_meet(&settings, i, &m) ? fmin(least, m.cosine) : least;
+    }
+    assert_true(least > 0 && least < 1);
+    const double passes = 2 * (least + 1 / least) / 1e5;
+    assert_true(largest_difference(&paint, &mirror, 61 * 43) < passes + 1e-6); // and rounding
+    test_frame_free(&paint);
+    test_frame_free(&mirror);
 }
 
 // Loads the plane's file again, with an override.
@@ -337,7 +372,7 @@ static void presets_stay_where_the_color_texture_cannot_be_read(void **state)
                          "{\"index\":0},\"baseColorFactor\":[1,0.25,0.5,1]}}]");
     glint_warnings warnings = {0};
     glint_scene metal = load_overridden(plain.path, "*=metal", &warnings);
-    assert_true(any_warning_has(&warnings, "; the colour's factor alone is used"));
+    assert_true(any_warning_has(&warnings, "; the maps that need it are left out"));
     assert_true(metal.materials[0].metallic == 1 && metal.materials[0].roughness == 0);
     assert_true(metal.materials[0].base_color[1] == 0.25F);
     assert_int_equal(metal.materials[0].textures[GLINT_TEXTURE_BASE_COLOR].image, 0);
@@ -376,7 +411,8 @@ int main(void)
         TEST(bent_normals_turn_reflections),
         TEST(what_is_there_in_part_lets_light_pass),
         TEST(alpha_is_kept_where_the_background_is_left_out),
-        TEST(unreadable_textures_become_grey_paint),
+        TEST(unreadable_textures_leave_their_factors),
+        TEST(an_index_of_zero_reflects_all),
         TEST(images_of_replaced_materials_are_not_read),
         TEST(presets_take_colors_of_vertices_away_or_keep_them),
         TEST(presets_stay_where_the_color_texture_cannot_be_read),

@@ -20,7 +20,7 @@ glint_status decode(const glint_codec_request &request, Memory &memory, glint_co
 {
     try {
         if (request.work == GLINT_DECODE_MESH) {
-            return decode_mesh(request, memory.file(), answer, error);
+            return decode_mesh(request, memory.file(), error);
         }
         return request.work == GLINT_DECODE_CHANNELS
                    ? decode_channels(request, memory, answer, error)

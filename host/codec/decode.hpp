@@ -56,8 +56,7 @@ glint_status decode_channels(const glint_codec_request &request, Memory &memory,
                              glint_codec_answer &answer, glint_error *error);
 
 // Decodes a mesh. The memory file `file` holds the job and receives the results.
-glint_status decode_mesh(const glint_codec_request &request, int file, glint_codec_answer &answer,
-                         glint_error *error);
+glint_status decode_mesh(const glint_codec_request &request, int file, glint_error *error);
 
 // Refuses a picture that takes more than the request allows.
 glint_status check_cost(const glint_codec_request &request, std::int64_t width, std::int64_t height,

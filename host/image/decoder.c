@@ -203,7 +203,7 @@ glint_status glint_decoder_run_within(const glint_image_source *source, bool all
 }
 
 glint_status glint_decoder_run_mesh(const char *name, const glint_decode_limits *limits, int file,
-                                    uint64_t *index_bytes, glint_error *error)
+                                    glint_error *error)
 {
     glint_stored stored = {.path = name, .file = file};
     glint_codec_request *request = calloc(1, sizeof *request);
@@ -215,7 +215,6 @@ glint_status glint_decoder_run_mesh(const char *name, const glint_decode_limits 
     request->limits = *limits;
     request->threads = 1;
     const glint_status status = ask(request, -1, &stored, error);
-    *index_bytes = stored.value_bytes;
     free(request);
     return status;
 }

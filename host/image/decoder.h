@@ -39,11 +39,11 @@ glint_status glint_decoder_run_within(const glint_image_source *source, bool all
 glint_decode_limits glint_decoder_limits(uint64_t file_bytes);
 
 // Decodes a mesh in the memory file `file` (mesh_decoding.h), which the caller keeps. `name` is its
-// name in messages. Sets *index_bytes to the bytes of its 32-bit indices, from index_offset on; 0
-// on an error. A mesh can break the process that decodes it. So the caller must check the number
-// against index_room, and all indices. Errors: GLINT_BAD_INPUT with the name, GLINT_OUT_OF_MEMORY.
+// name in messages. A mesh can break the process that decodes it. So the caller must check the
+// counts that it finds in the file, and all indices. Errors: GLINT_BAD_INPUT with the name,
+// GLINT_OUT_OF_MEMORY.
 glint_status glint_decoder_run_mesh(const char *name, const glint_decode_limits *limits, int file,
-                                    uint64_t *index_bytes, glint_error *error);
+                                    glint_error *error);
 
 void glint_stored_free(glint_stored *stored);
 

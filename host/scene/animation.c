@@ -102,12 +102,13 @@ void glint_curve_sample(const glint_curve *curve, double exact_time, double *val
     const double *times = curve->times;
     const double time = exact_time * (1 + 2 * (double)FLT_EPSILON);
     const size_t last = curve->key_count - 1;
-    if (!(time > times[0])) {
-        take_key(curve, 0, value);
-        return;
-    }
     if (time >= times[last]) {
         take_key(curve, last, value);
+        return;
+    }
+    if (!(time > times[0])) {
+        // Several keys may have the first time.
+        take_key(curve, time == times[0] ? find_key(curve, time) : 0, value);
         return;
     }
     const size_t key = find_key(curve, time);

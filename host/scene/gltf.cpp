@@ -4,23 +4,21 @@
 // Limits: files of 4 GiB, buffers of 8 GiB, 2^27 triangles.
 #include "scene/scene.h"
 
+#include "scene/gltf_buffers.hpp"
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_draco.hpp"
 #include "scene/gltf_flatten.hpp"
 #include "scene/gltf_material.hpp"
 #include "scene/gltf_meshopt.hpp"
 #include "scene/gltf_sweep.hpp"
-#include "scene/gltf_uri.hpp"
 #include "scene/gltf_usage.hpp"
 #include "scene/gltf_used_materials.hpp"
 #include "scene/gltf_variants.hpp"
 
-#include <map>
 #include <memory>
 #include <new>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace glint
 {
@@ -43,7 +41,8 @@ void report(const Load &load, glint_scene &scene, glint_warnings *warnings)
     }
     glint_material_overrides_warn(&load.overrides, scene.materials, scene.material_count, path,
                                   warnings);
-    if (scene.triangle_count == 0) {
+    // Who hides all meshes means it.
+    if (scene.triangle_count == 0 && !load.hides_any && load.model.hidden_nodes.empty()) {
         glint_warn(warnings, "%s: the scene has no triangles, only the environment will be seen",
                    path);
     }
@@ -109,49 +108,16 @@ void fill(glint_scene_source &source, double time, glint_scene &scene)
     }
 }
 
-// Reads the buffers. If several buffers name one file, reads the longest once, and uses it for all.
-void read_buffers(Load &load)
-{
-    const json &buffers = objects_of(load.document.root, "buffers");
-    std::vector<int> stand_in(buffers.size());
-    std::map<std::string, std::size_t> longest;
-    auto length = [&](std::size_t i) { return buffers[i]["byteLength"].get<std::uint64_t>(); };
-    const std::vector<bool> &is_read = load.model.is_read;
-    for (std::size_t i = 0; i < buffers.size(); i++) {
-        const json *uri = member(buffers[i], "uri");
-        if (is_read[i] && uri != nullptr && !is_data_uri(uri->get_ref<const std::string &>())) {
-            std::size_t &best = longest.try_emplace(uri->get<std::string>(), i).first->second;
-            best = length(i) > length(best) ? i : best;
-        }
-    }
-    for (std::size_t i = 0; i < buffers.size(); i++) {
-        const json *uri = member(buffers[i], "uri");
-        const auto found = uri != nullptr ? longest.find(uri->get<std::string>()) : longest.end();
-        stand_in[i] = static_cast<int>(found != longest.end() ? found->second : i);
-    }
-    load.model.buffers.resize(buffers.size());
-    for (std::size_t i = 0; i < buffers.size(); i++) {
-        if (is_read[i] && stand_in[i] == static_cast<int>(i)) {
-            load.model.buffers[i].data = read_buffer(load.document, i);
-        }
-    }
-    for (tinygltf::BufferView &view : load.model.bufferViews) {
-        view.buffer = stand_in[static_cast<std::size_t>(view.buffer)];
-    }
-    for (PackedView &packed : load.model.packed) {
-        packed.buffer = static_cast<std::size_t>(stand_in[packed.buffer]);
-    }
-}
-
 void open(const char *path, const glint_scene_options &options, glint_scene_source &source)
 {
     Load &load = source.load;
     read_document(path, load.document);
     check_document(load.document, load.model);
     choose_variant(options.variant, load.model);
-    read_buffers(load);
+    read_buffers(load.document, load.model);
     unpack_views(load.model);
     decode_draco(load.model);
+    settle_attributes(load.model);
     load.primitives = prepare_primitives(load.model, load.tally);
     load.skins = read_skins(load.model);
     load.clips = read_clips(load.document, load.model, options.animation, load.tally);

@@ -1,4 +1,4 @@
-// Checks and reads animations of a glTF file. See gltf_animation.hpp.
+// Reads animations of a glTF file. See gltf_animation.hpp.
 #include "scene/gltf_animation.hpp"
 
 #include "base/free_memory.h"
@@ -15,8 +15,6 @@ namespace glint
 
 namespace
 {
-
-// ---- Checks ------------------------------------------------------------------------------------
 
 constexpr std::array<const char *, 4> paths = {"translation", "rotation", "scale", "weights"};
 
@@ -42,112 +40,103 @@ glint_interpolation interpolation_of(const json &sampler, const Place &place)
            in_quotes(name) + " is none (LINEAR, STEP or CUBICSPLINE is expected)");
 }
 
-void check_sampler(const json &sampler, const Place &place, const Model &model)
-{
-    const auto &accessors = model.accessors;
-    for (const char *key : {"input", "output"}) {
-        if (optional_index(sampler, place, key, accessors.size(), "accessor") < 0) {
-            refuse(place / key, "missing (glTF 2.0 requires it)");
-        }
+// The input and output of reading clips.
+struct Reading {
+    const Document &document;
+    const Model &model;
+    Clips &clips;
+    Tally &tally;
+    std::uint64_t left; // bytes of memory that further curves may take
+};
+
+// What a channel moves.
+struct Target {
+    std::size_t node;
+    Property property;
+    std::size_t components; // numbers of a value
+};
+
+// A channel's sampler.
+struct Sampler {
+    const json &source;
+    Place place;
+    glint_interpolation interpolation;
+    std::size_t input, output; // accessors
+
+    // Returns the number of values per key: 1, or 3 with tangents.
+    std::size_t values_a_key() const
+    {
+        return interpolation == GLINT_INTERPOLATION_CUBIC ? 3 : 1;
     }
-    const tinygltf::Accessor &times = accessors[sampler["input"].get<std::size_t>()];
-    check_format(times, place / "input", {TINYGLTF_TYPE_SCALAR, true, false, false});
-    interpolation_of(sampler, place);
+};
+
+// ---- Samplers -----------------------------------------------------------------------------------
+
+std::size_t accessor_of(const json &sampler, const Place &place, const char *key,
+                        const Model &model)
+{
+    const std::ptrdiff_t index =
+        optional_index(sampler, place, key, model.accessors.size(), "accessor");
+    if (index < 0) {
+        refuse(place / key, "missing (glTF 2.0 requires it)");
+    }
+    return static_cast<std::size_t>(index);
 }
 
-// The number of values per key: 1, or 3 with tangents.
-std::size_t values_a_key(const json &sampler, const Place &place)
+Sampler find_sampler(const Reading &reading, const json &animation, const Place &place,
+                     const json &channel, const Place &channel_place)
 {
-    return interpolation_of(sampler, place) == GLINT_INTERPOLATION_CUBIC ? 3 : 1;
+    const json &samplers = array_at(animation, place, "samplers");
+    const std::ptrdiff_t index =
+        optional_index(channel, channel_place, "sampler", samplers.size(), "sampler");
+    if (index < 0) {
+        refuse(channel_place / "sampler", "missing (glTF 2.0 requires it)");
+    }
+    const auto number = static_cast<std::size_t>(index);
+    const Place at = (place / "samplers")[number];
+    const json &source = samplers[number];
+    expect_object(source, at);
+    return {source, at, interpolation_of(source, at),
+            accessor_of(source, at, "input", reading.model),
+            accessor_of(source, at, "output", reading.model)};
 }
 
-// The number of morph targets that a node's curve of weights moves; 0 if the node has none.
-std::size_t targets_of(const Model &model, const json &target)
+// Checks the accessors' kinds and lengths.
+void check_accessors(const Sampler &sampler, const Target &target, const Model &model)
 {
-    const json *node = member(target, "node");
-    const int mesh = node == nullptr ? -1 : model.nodes[node->get<std::size_t>()].mesh;
-    return mesh < 0 ? 0 : model.target_counts[static_cast<std::size_t>(mesh)];
-}
-
-// Checks a channel's sampler for its property; `targets` is the number of morph targets.
-void check_output(const json &sampler, const Place &place, std::size_t property,
-                  std::size_t targets, const Model &model)
-{
-    const tinygltf::Accessor &output = model.accessors[sampler["output"].get<std::size_t>()];
-    const std::uint64_t keys = model.accessors[sampler["input"].get<std::size_t>()].count;
-    const std::uint64_t values = output.count;
-    const bool is_vector = property == translation || property == scale;
-    const int type = is_vector              ? TINYGLTF_TYPE_VEC3
-                     : property == rotation ? TINYGLTF_TYPE_VEC4
-                                            : TINYGLTF_TYPE_SCALAR;
-    check_format(output, place / "output", {type, true, !is_vector, false, !is_vector});
-    const std::uint64_t each = values_a_key(sampler, place);
-    const std::uint64_t numbers = each * (property == weights ? targets : 1);
-    if (values % numbers != 0 || values / numbers != keys) { // a product could overflow
-        refuse(place / "output",
+    const tinygltf::Accessor &input = model.accessors[sampler.input];
+    const tinygltf::Accessor &output = model.accessors[sampler.output];
+    check_format(input, sampler.place / "input", {TINYGLTF_TYPE_SCALAR, true, false, false});
+    const bool is_vector = target.property == translation || target.property == scale;
+    const int type = is_vector                     ? TINYGLTF_TYPE_VEC3
+                     : target.property == rotation ? TINYGLTF_TYPE_VEC4
+                                                   : TINYGLTF_TYPE_SCALAR;
+    check_format(output, sampler.place / "output", {type, true, !is_vector, false, !is_vector});
+    const std::uint64_t each =
+        sampler.values_a_key() * (target.property == weights ? target.components : 1);
+    const std::uint64_t values = output.count, keys = input.count;
+    if (values % each != 0 || values / each != keys) { // a product could overflow
+        refuse(sampler.place / "output",
                counted(values, "value") + " for " + counted(keys, "key") +
-                   (property == weights ? " of " + counted(targets, "morph target") : "") +
-                   (each == 3 ? ", which have three each" : "") + " (the file is damaged)");
+                   (target.property == weights ? " of " + counted(target.components, "morph target")
+                                               : "") +
+                   (sampler.values_a_key() == 3 ? ", which have three each" : ""));
     }
 }
 
-void check_channel(const json &channel, const Place &place, const json &samplers,
-                   const Place &samplers_place, const Model &model)
-{
-    std::ptrdiff_t sampler = optional_index(channel, place, "sampler", samplers.size(), "sampler");
-    if (sampler < 0) {
-        refuse(place / "sampler", "missing (glTF 2.0 requires it)");
-    }
-    const json &target = object_at(channel, place, "target");
-    optional_index(target, place / "target", "node", model.nodes.size(), "node");
-    std::string path = optional_text(target, place / "target", "path");
-    if (path.empty()) {
-        refuse(place / "target" / "path", "missing (glTF 2.0 requires it)");
-    }
-    const std::size_t property = property_of(path);
-    const std::size_t targets = targets_of(model, target);
-    if (property < paths.size() && (property != weights || targets > 0)) {
-        auto index = static_cast<std::size_t>(sampler);
-        check_output(samplers[index], samplers_place[index], property, targets, model);
-    }
-}
-
-} // namespace
-
-void check_animations(const json &root, const Model &model)
-{
-    const json &animations = objects_of(root, "animations");
-    for (std::size_t i = 0; i < animations.size(); i++) {
-        Place place = (Place() / "animations")[i];
-        optional_text(animations[i], place, "name");
-        const json &samplers = array_at(animations[i], place, "samplers");
-        const json &channels = array_at(animations[i], place, "channels");
-        for (std::size_t k = 0; k < samplers.size(); k++) {
-            expect_object(samplers[k], (place / "samplers")[k]);
-            check_sampler(samplers[k], (place / "samplers")[k], model);
-        }
-        for (std::size_t k = 0; k < channels.size(); k++) {
-            expect_object(channels[k], (place / "channels")[k]);
-            check_channel(channels[k], (place / "channels")[k], samplers, place / "samplers",
-                          model);
-        }
-    }
-}
-
-// ---- Reading -----------------------------------------------------------------------------------
-
-namespace
-{
-
-std::vector<double> read_times(const Reader &reader, const Place &place)
+std::vector<double> read_times(const Reader &reader, const Place &place, Tally &tally)
 {
     std::vector<double> times(reader.count());
+    bool repeats = false;
     for (std::size_t i = 0; i < times.size(); i++) {
         reader.numbers(i, 1, &times[i]);
-        if (!std::isfinite(times[i]) || times[i] < 0 || (i > 0 && times[i] <= times[i - 1])) {
-            refuse(place / "input", "key " + std::to_string(i) + " is at " + shown(times[i]) +
-                                        " s (times must be finite, from 0 and ascend)");
+        if (!std::isfinite(times[i]) || (i > 0 && times[i] < times[i - 1])) {
+            refuse(place, "the times of its keys must be finite and ascend");
         }
+        repeats = repeats || (i > 0 && times[i] == times[i - 1]);
+    }
+    if (repeats) {
+        tally.add("several keys have one time (the value jumps there)", place.text());
     }
     return times;
 }
@@ -164,39 +153,48 @@ std::vector<double> read_values(const Reader &reader, std::size_t components, st
             squares += value[k] * value[k];
         }
         bool is_tangent = each == 3 && i % 3 != 1;
-        if (!std::isfinite(squares) || (components == 4 && !is_tangent && !(squares > 0))) {
-            refuse(place / "output",
-                   "value " + std::to_string(i) +
-                       (components == 4 ? " is no rotation (a quaternion must be finite and not 0)"
-                                        : " is not finite (the file is damaged)"));
+        if (!std::isfinite(squares)) {
+            refuse(place, "a value is not finite");
+        }
+        if (components == 4 && !is_tangent && !(squares > 0)) {
+            refuse(place, "a value is no rotation (a quaternion is not 0)");
         }
     }
     return values;
 }
 
-// `components` is the count of numbers in a value.
-Curve read_curve(const Model &model, const json &sampler, const Place &place, Property property,
-                 std::size_t components)
+// ---- Channels -----------------------------------------------------------------------------------
+
+// Returns the number of morph targets of a node; 0 if the node has none.
+std::size_t targets_of(const Model &model, std::size_t node)
 {
-    Curve curve;
-    curve.is_rotation = property == rotation;
-    curve.components = components;
-    curve.interpolation = interpolation_of(sampler, place);
-    curve.times = read_times(Reader(model, sampler["input"].get<std::size_t>()), place);
-    curve.values = read_values(Reader(model, sampler["output"].get<std::size_t>()),
-                               property == weights ? 1 : components, // each weight is a scalar
-                               values_a_key(sampler, place), place);
-    return curve;
+    const int mesh = model.nodes[node].mesh;
+    return mesh < 0 ? 0 : model.target_counts[static_cast<std::size_t>(mesh)];
 }
 
-// The input and output of reading clips.
-struct Reading {
-    const Document &document;
-    const Model &model;
-    Clips &clips;
-    Tally &tally;
-    std::uint64_t left; // bytes of memory that further curves may take
-};
+// Finds what a channel moves. Refuses a target that glint does not move.
+Target find_target(const Model &model, const json &channel, const Place &place)
+{
+    const json &target = object_at(channel, place, "target");
+    const std::size_t property = property_of(optional_text(target, place / "target", "path"));
+    const std::ptrdiff_t node =
+        optional_index(target, place / "target", "node", model.nodes.size(), "node");
+    if (property == paths.size() || node < 0) {
+        refuse(place, "only translation, rotation, scale and weights of nodes are animated");
+    }
+    const auto index = static_cast<std::size_t>(node);
+    const std::size_t targets = targets_of(model, index);
+    if (property == weights && targets == 0) {
+        refuse(place, "the node has no morph targets");
+    }
+    if (property != weights && !model.nodes[index].matrix.empty()) {
+        refuse(place, "the node has a matrix, which cannot be animated");
+    }
+    return {index, static_cast<Property>(property),
+            property == weights    ? targets
+            : property == rotation ? 4
+                                   : 3};
+}
 
 // Counts a curve's memory. Many channels may share a sampler, but each has its own curve.
 void take_memory(Reading &reading, std::uint64_t bytes)
@@ -208,59 +206,55 @@ void take_memory(Reading &reading, std::uint64_t bytes)
     reading.left -= bytes;
 }
 
+// Reads a channel. Refuses one that cannot be read.
 void read_channel(Reading &reading, const json &animation, const Place &place, std::size_t number)
 {
     const json &channel = animation["channels"][number];
-    const json &target = channel["target"];
-    std::string where = (place / "channels")[number].text();
-    const std::size_t found = property_of(target["path"].get<std::string>());
-    if (found == paths.size() || member(target, "node") == nullptr) {
-        reading.tally.add("only translation, rotation, scale and weights of nodes are animated, "
-                          "this is left out",
-                          where);
-        return;
-    }
-    auto property = static_cast<Property>(found);
-    const std::size_t targets = targets_of(reading.model, target);
-    if (property == weights && targets == 0) {
-        reading.tally.add("the node has no morph targets, the animation of their weights is left "
-                          "out",
-                          where);
-        return;
-    }
-    auto node = target["node"].get<std::size_t>();
-    if (property != weights && !reading.model.nodes[node].matrix.empty()) {
-        reading.tally.add("the node has a matrix, which cannot be animated, and stays where it is",
-                          where);
-        return;
-    }
-    // Count the memory of the curve, then read it.
-    auto sampler = channel["sampler"].get<std::size_t>();
-    const json &source = animation["samplers"][sampler];
-    const std::size_t numbers = reading.model.accessors[source["input"].get<std::size_t>()].count +
-                                reading.model.accessors[source["output"].get<std::size_t>()].count *
-                                    (property == weights    ? 1
-                                     : property == rotation ? 4
-                                                            : 3);
-    take_memory(reading, numbers * sizeof(double));
-    Curve curve = read_curve(reading.model, animation["samplers"][sampler],
-                             (place / "samplers")[sampler], property,
-                             property == weights    ? targets
-                             : property == rotation ? 4
-                                                    : 3);
+    const Place at = (place / "channels")[number];
+    const Model &model = reading.model;
+    expect_object(channel, at);
+    const Target target = find_target(model, channel, at);
+    const Sampler sampler = find_sampler(reading, animation, place, channel, at);
+    check_accessors(sampler, target, model);
+    const std::size_t of_output = target.property == weights ? 1 : target.components;
+    take_memory(reading, (model.accessors[sampler.input].count +
+                          model.accessors[sampler.output].count * of_output) *
+                             sizeof(double));
+    Curve curve;
+    curve.is_rotation = target.property == rotation;
+    curve.components = target.components;
+    curve.interpolation = sampler.interpolation;
+    curve.times = read_times(Reader(model, sampler.input), sampler.place / "input", reading.tally);
+    curve.values = read_values(Reader(model, sampler.output), of_output, sampler.values_a_key(),
+                               sampler.place / "output");
     reading.clips.duration = std::max(reading.clips.duration, curve.times.back());
-    reading.clips.nodes[node].of[property] = std::move(curve);
+    reading.clips.nodes[target.node].of[target.property] = std::move(curve);
+}
+
+// Leaves out channels that cannot be read.
+void read_channels(Reading &reading, const json &animation, const Place &place)
+{
+    const json &channels = array_at(animation, place, "channels");
+    for (std::size_t k = 0; k < channels.size(); k++) {
+        try {
+            read_channel(reading, animation, place, k);
+        } catch (const refusal &fault) {
+            reading.tally.add(fault.cause() + "; the channel is left out", fault.where());
+        }
+    }
 }
 
 void read_clip(Reading &reading, std::size_t index)
 {
     const json &animation = objects_of(reading.document.root, "animations")[index];
     Place place = (Place() / "animations")[index];
-    for (std::size_t k = 0; k < animation["channels"].size(); k++) {
-        read_channel(reading, animation, place, k);
+    try {
+        read_channels(reading, animation, place);
+    } catch (const refusal &fault) {
+        reading.tally.add(fault.cause() + "; the animation is left out", fault.where());
     }
     if (reading.clips.name.empty()) {
-        reading.clips.name = optional_text(animation, place, "name");
+        reading.clips.name = name_of(animation);
     }
 }
 
@@ -269,7 +263,7 @@ std::vector<std::string> names_of(const json &animations)
     std::vector<std::string> names;
     names.reserve(animations.size());
     for (const json &animation : animations) {
-        names.push_back(optional_text(animation, Place(), "name"));
+        names.push_back(name_of(animation));
     }
     return names;
 }

@@ -1,4 +1,4 @@
-// Checks the animations of a glTF file, and reads the chosen clips as curves of nodes.
+// Reads the chosen animations of a glTF file as curves of nodes.
 #ifndef GLINT_SCENE_GLTF_ANIMATION_HPP
 #define GLINT_SCENE_GLTF_ANIMATION_HPP
 
@@ -14,10 +14,6 @@
 
 namespace glint
 {
-
-// Refuses references to nothing, and accessors of the wrong kind or length. Animations that glint
-// does not model (pointers) pass.
-void check_animations(const json &root, const Model &model);
 
 enum Property : std::size_t { translation, rotation, scale, weights };
 
@@ -46,7 +42,7 @@ struct Clips {
 };
 
 // Reads the clip by name or index, or "all" or "none"; NULL: the first, if any. Leaves out curves
-// that a node cannot follow or that glint does not model, and tallies them.
+// that a node cannot follow, that glint does not model or that cannot be read, and tallies them.
 Clips read_clips(const Document &document, const Model &model, const char *name, Tally &tally);
 
 } // namespace glint

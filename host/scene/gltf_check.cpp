@@ -1,11 +1,9 @@
 // Validates the top level of the raw JSON, where no other file does. See gltf_check.hpp.
 #include "scene/gltf_check.hpp"
 
-#include "scene/gltf_animation.hpp"
 #include "scene/gltf_check_storage.hpp"
 #include "scene/gltf_extensions.hpp"
 #include "scene/gltf_material.hpp"
-#include "scene/gltf_texture.hpp"
 #include "scene/gltf_variants.hpp"
 
 namespace glint
@@ -17,8 +15,12 @@ namespace
 // Checks a version: "2.0" has the major number 2. Another major number means another format.
 void check_version(const json &asset, const Place &place, const char *key)
 {
-    std::string version = optional_text(asset, place, key);
-    if (!version.empty() && version.compare(0, 2, "2.") != 0) {
+    const json *found = member(asset, key);
+    // Some exporters write the number 2.
+    const bool is_number = found != nullptr && found->is_number();
+    std::string version =
+        is_number ? shown(found->get<double>()) : optional_text(asset, place, key);
+    if (!version.empty() && version != "2" && version.compare(0, 2, "2.") != 0) {
         refuse(place / key,
                in_quotes(version) + " is not supported (convert the file to glTF 2.0)");
     }
@@ -72,14 +74,12 @@ void check_document(const Document &document, Model &model)
         check_objects(document.root, key);
     }
     check_extensions(document.root, model);
-    check_storage(document, model);
-    check_textures(document);
+    check_storage(document.root, model);
     check_materials(document.root);
-    check_variants(document.root, model);
+    read_variants(document.root, model);
     check_meshes(document.root, model);
     check_zeros(model);
     check_graph(document.root, model);
-    check_animations(document.root, model);
 }
 
 } // namespace glint

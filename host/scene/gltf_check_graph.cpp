@@ -43,7 +43,7 @@ std::vector<double> check_numbers(const json &node, const Place &node_place, con
     return numbers;
 }
 
-// Checks that a matrix is affine and not singular, as translation, rotation and scale make it.
+// Checks that a matrix is affine. It may flatten or hide, as a scale may.
 std::vector<double> check_matrix(const json &node, const Place &node_place)
 {
     std::vector<double> m = check_numbers(node, node_place, "matrix", 16);
@@ -56,15 +56,6 @@ std::vector<double> check_matrix(const json &node, const Place &node_place)
     if (std::fabs(m[3]) > tolerance || std::fabs(m[7]) > tolerance ||
         std::fabs(m[11]) > tolerance || std::fabs(m[15] - 1) > tolerance) {
         refuse(place, "its last row is not 0 0 0 1 (a node's matrix moves, turns and scales only)");
-    }
-    double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
-                         m[8] * (m[1] * m[6] - m[2] * m[5]);
-    double volume =
-        std::hypot(m[0], m[1], m[2]) * std::hypot(m[4], m[5], m[6]) * std::hypot(m[8], m[9], m[10]);
-    // Written so that NaN and a volume of 0 count as singular. The limit is 1e-12 of the box that
-    // the axes span. This is far below the precision of a matrix of floats.
-    if (!(std::fabs(determinant) > 1e-12 * volume)) {
-        refuse(place, "singular: its axes lie in a plane (a scale of [0, 0, 0] hides a node)");
     }
     return m;
 }
@@ -122,25 +113,16 @@ tinygltf::Node check_node(const json &root, const json &source, const Place &pla
             optional_index(source, place, key, objects_of(root, all).size(), key));
     };
     tinygltf::Node node;
-    node.name = optional_text(source, place, "name");
+    node.name = name_of(source);
     node.mesh = index("mesh", "meshes");
     node.camera = index("camera", "cameras");
     node.skin = index("skin", "skins");
-    bool has_matrix = member(source, "matrix") != nullptr;
-    for (const char *key : {"translation", "rotation", "scale"}) {
-        if (has_matrix && member(source, key) != nullptr) {
-            refuse(place, std::string("has a matrix and a ") + key +
-                              " (only one of the two can "
-                              "be meant)");
-        }
-    }
     node.matrix = check_matrix(source, place);
     node.translation = check_numbers(source, place, "translation", 3);
     node.scale = check_numbers(source, place, "scale", 3);
     node.rotation = check_rotation(source, place);
     if (node.mesh >= 0) {
-        node.weights =
-            check_weights(source, place, model.target_counts[static_cast<std::size_t>(node.mesh)]);
+        node.weights = check_weights(source, place);
     }
     check_instancing(source, place, model);
     return node;
@@ -198,6 +180,22 @@ void check_loops(const std::vector<int> &parents)
     }
 }
 
+bool is_hidden(const json &node, const Place &place)
+{
+    constexpr const char *name = "KHR_node_visibility";
+    const json *extension = extension_of(node, place, name);
+    return extension != nullptr &&
+           !optional_boolean(*extension, place / "extensions" / name, "visible", true);
+}
+
+// True if a node has a matrix beside a translation, rotation or scale.
+bool has_two_places(const json &node)
+{
+    return member(node, "matrix") != nullptr &&
+           (member(node, "translation") != nullptr || member(node, "rotation") != nullptr ||
+            member(node, "scale") != nullptr);
+}
+
 void check_nodes(const json &root, Model &model)
 {
     const json &nodes = objects_of(root, "nodes");
@@ -205,7 +203,18 @@ void check_nodes(const json &root, Model &model)
     for (std::size_t i = 0; i < nodes.size(); i++) {
         Place place = (Place() / "nodes")[i];
         tinygltf::Node &node = model.nodes.emplace_back(check_node(root, nodes[i], place, model));
-        model.light_of.push_back(check_node_light(nodes[i], place, model));
+        if (node.mesh >= 0 && !node.weights.empty() &&
+            node.weights.size() != model.target_counts[static_cast<std::size_t>(node.mesh)]) {
+            model.node_notes[i].emplace_back(wrong_weights);
+        }
+        if (has_two_places(nodes[i])) {
+            model.node_notes[i].emplace_back("the node has a matrix, and translation, rotation or "
+                                             "scale, too (the matrix counts)");
+        }
+        if (is_hidden(nodes[i], place)) {
+            model.hidden_nodes.insert(i);
+        }
+        model.light_of.push_back(read_node_light(nodes[i], place, i, model));
         const json &children = optional_array(nodes[i], place, "children");
         for (std::size_t c = 0; c < children.size(); c++) {
             Place child = (place / "children")[c];
@@ -223,25 +232,14 @@ void check_nodes(const json &root, Model &model)
 void check_scenes(const json &root, Model &model)
 {
     const json &scenes = objects_of(root, "scenes");
-    std::vector<std::size_t> listed_by(model.parents.size(), scenes.size());
     for (std::size_t s = 0; s < scenes.size(); s++) {
         Place place = (Place() / "scenes")[s];
         tinygltf::Scene &scene = model.scenes.emplace_back();
-        scene.name = optional_text(scenes[s], place, "name");
+        scene.name = name_of(scenes[s]);
         const json &nodes = optional_array(scenes[s], place, "nodes");
         for (std::size_t i = 0; i < nodes.size(); i++) {
             Place entry = (place / "nodes")[i];
             std::size_t node = index_of(nodes[i], entry, model.parents.size(), "node");
-            int parent = model.parents[node];
-            if (parent >= 0) {
-                refuse(entry, node_name(node) + " is a child of " +
-                                  node_name(static_cast<std::size_t>(parent)) +
-                                  " (a scene lists root nodes only)");
-            }
-            if (listed_by[node] == s) {
-                refuse(entry, node_name(node) + " stands there twice (list it once)");
-            }
-            listed_by[node] = s;
             scene.nodes.push_back(static_cast<int>(node));
         }
     }
@@ -284,7 +282,7 @@ void check_cameras(const json &root, Model &model)
     for (std::size_t i = 0; i < cameras.size(); i++) {
         Place place = (Place() / "cameras")[i];
         tinygltf::Camera &camera = model.cameras.emplace_back();
-        camera.name = optional_text(cameras[i], place, "name");
+        camera.name = name_of(cameras[i]);
         camera.type = optional_text(cameras[i], place, "type");
         if (camera.type == "perspective") {
             camera.perspective.yfov = check_perspective(cameras[i], place);
@@ -302,7 +300,7 @@ void check_cameras(const json &root, Model &model)
 void check_graph(const json &root, Model &model)
 {
     check_cameras(root, model);
-    check_lights(root, model);
+    read_lights(root, model);
     check_skins(root, model);
     check_nodes(root, model);
     check_scenes(root, model);

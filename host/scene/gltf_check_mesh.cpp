@@ -34,54 +34,27 @@ void check_indices(const json &source, const Place &primitive_place, const Model
         refuse(place, name + " does not hold indices (SCALAR of 5121, 5123 or 5125, not "
                              "normalized)");
     }
-    if (accessor.bufferView >= 0 &&
-        model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride != 0) {
+    const std::size_t stride =
+        accessor.bufferView < 0
+            ? 0
+            : model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
+    if (stride != 0 && static_cast<int>(stride) != tinygltf::GetComponentSizeInBytes(
+                                                       static_cast<std::uint32_t>(component))) {
         refuse(place, name + "'s bufferView has a byteStride (indices are packed tightly)");
-    }
-}
-
-// Checks an attribute that textures and colours need.
-void check_attribute(const std::string &name, const tinygltf::Accessor &accessor,
-                     const Place &place, const Model &model)
-{
-    if (name == "TEXCOORD_0" || name == "TEXCOORD_1") {
-        check_format(accessor, place, {TINYGLTF_TYPE_VEC2, true, false, model.quantized, true});
-    } else if (name == "TANGENT") {
-        check_format(accessor, place, {TINYGLTF_TYPE_VEC4, true, model.quantized, false});
-    } else if (name == "COLOR_0") {
-        const bool has_alpha = accessor.type == TINYGLTF_TYPE_VEC4;
-        check_format(
-            accessor, place,
-            {has_alpha ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, true, false, false, true});
     }
 }
 
 void check_attributes(const json &attributes, const Place &place, const Model &model,
                       tinygltf::Primitive &primitive)
 {
-    const json *position = member(attributes, "POSITION");
-    std::uint64_t vertices = 0;
-    if (position != nullptr) {
-        vertices = model
-                       .accessors[index_of(*position, place / "POSITION", model.accessors.size(),
-                                           "accessor")]
-                       .count;
-    }
     for (auto it = attributes.begin(); it != attributes.end(); ++it) {
         Place attribute = place / it.key().c_str();
         std::size_t index = index_of(it.value(), attribute, model.accessors.size(), "accessor");
         const tinygltf::Accessor &accessor = model.accessors[index];
-        if (position != nullptr && accessor.count != vertices) {
-            refuse(attribute, "accessors[" + std::to_string(index) + "] has " +
-                                  counted(accessor.count, "element") + ", POSITION has " +
-                                  std::to_string(vertices) + " (they must agree)");
-        }
         if (it.key() == "POSITION") {
             check_format(accessor, attribute, {TINYGLTF_TYPE_VEC3, true, false, model.quantized});
         } else if (it.key() == "NORMAL") {
             check_format(accessor, attribute, {TINYGLTF_TYPE_VEC3, true, model.quantized, false});
-        } else {
-            check_attribute(it.key(), accessor, attribute, model);
         }
         primitive.attributes[it.key()] = static_cast<int>(index);
     }
@@ -110,14 +83,138 @@ tinygltf::Primitive check_primitive(const json &root, const json &source, const 
     return primitive;
 }
 
+// ---- Once Draco's data is decoded ---------------------------------------------------------------
+
+// An attribute that only textures and colours need.
+struct Decoration {
+    const char *name;
+    std::vector<Format> formats;
+    const char *kind, *instead; // for the note
+};
+
+std::vector<Decoration> decorations(const Model &model)
+{
+    const auto coordinates = [&](int type) {
+        return Format{type, true, false, model.quantized, true};
+    };
+    const std::vector<Format> of_texcoords = {coordinates(TINYGLTF_TYPE_VEC2),
+                                              coordinates(TINYGLTF_TYPE_VEC3),
+                                              coordinates(TINYGLTF_TYPE_VEC4)};
+    return {
+        {"TEXCOORD_0", of_texcoords, "VEC2", "the coordinates count as 0"},
+        {"TEXCOORD_1", of_texcoords, "VEC2", "the coordinates count as 0"},
+        {"TANGENT",
+         {{TINYGLTF_TYPE_VEC4, true, model.quantized, false}},
+         "VEC4",
+         "tangents are computed"},
+        {"COLOR_0",
+         {{TINYGLTF_TYPE_VEC3, true, false, false, true},
+          {TINYGLTF_TYPE_VEC4, true, false, false, true}},
+         "VEC3 or VEC4",
+         "the vertices are white"},
+    };
+}
+
+// A primitive, and the number of its vertices.
+struct Settled {
+    Model &model;
+    std::pair<std::size_t, std::size_t> which; // mesh, number
+    std::size_t vertices;
+
+    tinygltf::Primitive &primitive() const
+    {
+        return model.meshes[which.first].primitives[which.second];
+    }
+    const tinygltf::Accessor &accessor(int index) const
+    {
+        return model.accessors[static_cast<std::size_t>(index)];
+    }
+};
+
+// Leaves out a decoration that cannot be read.
+void settle_decoration(const Settled &settled, const Decoration &decoration)
+{
+    auto &attributes = settled.primitive().attributes;
+    const auto found = attributes.find(decoration.name);
+    if (found == attributes.end()) {
+        return;
+    }
+    const tinygltf::Accessor &accessor = settled.accessor(found->second);
+    const bool is_readable =
+        std::any_of(decoration.formats.begin(), decoration.formats.end(),
+                    [&](const Format &format) { return has_format(accessor, format); });
+    const std::string name = decoration.name;
+    if (!is_readable || accessor.count != settled.vertices) {
+        settled.model.note(settled.which,
+                           name +
+                               (is_readable ? " has another number of elements than POSITION"
+                                            : std::string(" is not ") + decoration.kind +
+                                                  " of floats or normalized integers") +
+                               " and is left out: " + decoration.instead);
+        attributes.erase(found);
+    } else if (accessor.type != decoration.formats[0].type && name.compare(0, 5, "COLOR") != 0) {
+        settled.model.note(settled.which, name + " has more than two components: the first two "
+                                                 "count");
+    }
+}
+
+void check_count(const Settled &settled, int index, const Place &place)
+{
+    const std::size_t count = settled.accessor(index).count;
+    if (count != settled.vertices) {
+        refuse(place, "accessors[" + std::to_string(index) + "] has " + counted(count, "element") +
+                          ", POSITION has " + std::to_string(settled.vertices) +
+                          " (they must agree)");
+    }
+}
+
+// Checks what the shape needs.
+void check_shape(const Settled &settled, const Place &place)
+{
+    const tinygltf::Primitive &primitive = settled.primitive();
+    for (const auto &[name, index] : primitive.attributes) {
+        if (name == "NORMAL" || name.compare(0, 7, "JOINTS_") == 0 ||
+            name.compare(0, 8, "WEIGHTS_") == 0) {
+            check_count(settled, index, place / "attributes" / name.c_str());
+        }
+    }
+    for (std::size_t t = 0; t < primitive.targets.size(); t++) {
+        for (const MorphRow &row : morph_rows) {
+            const auto found = primitive.targets[t].find(row.name);
+            if (found != primitive.targets[t].end()) {
+                check_count(settled, found->second, (place / "targets")[t] / row.name);
+            }
+        }
+    }
+}
+
 } // namespace
+
+void settle_attributes(Model &model)
+{
+    const std::vector<Decoration> all = decorations(model);
+    for (std::size_t m = 0; m < model.meshes.size(); m++) {
+        for (std::size_t p = 0; p < model.meshes[m].primitives.size(); p++) {
+            const auto &attributes = model.meshes[m].primitives[p].attributes;
+            const auto position = attributes.find("POSITION");
+            if (position == attributes.end()) {
+                continue; // points or lines
+            }
+            const Settled settled = {
+                model, {m, p}, model.accessors[static_cast<std::size_t>(position->second)].count};
+            check_shape(settled, ((Place() / "meshes")[m] / "primitives")[p]);
+            for (const Decoration &decoration : all) {
+                settle_decoration(settled, decoration);
+            }
+        }
+    }
+}
 
 void check_meshes(const json &root, Model &model)
 {
     const json &meshes = objects_of(root, "meshes");
     for (std::size_t i = 0; i < meshes.size(); i++) {
         Place place = (Place() / "meshes")[i];
-        optional_text(meshes[i], place, "name");
         const json &primitives = array_at(meshes[i], place, "primitives");
         if (primitives.empty()) {
             refuse(place / "primitives", "empty (a mesh has at least one primitive)");
@@ -128,13 +225,18 @@ void check_meshes(const json &root, Model &model)
             const Place at = (place / "primitives")[p];
             mesh.primitives.push_back(check_primitive(root, primitives[p], at, model));
             check_draco(primitives[p], at, model);
-            VariantMaterials mapped = check_variant_mappings(root, primitives[p], at, model);
-            if (!mapped.empty()) {
-                model.mapped.push_back({i, p, std::move(mapped)});
+            MappedPrimitive mapped = read_variant_mappings(root, primitives[p], at, model);
+            if (!mapped.materials.empty() || !mapped.fault.empty()) {
+                mapped.mesh = i;
+                mapped.number = p;
+                model.mapped.push_back(std::move(mapped));
             }
             targets = std::max(targets, mesh.primitives.back().targets.size());
         }
-        mesh.weights = check_weights(meshes[i], place, targets);
+        mesh.weights = check_weights(meshes[i], place);
+        if (!mesh.weights.empty() && mesh.weights.size() != targets) {
+            model.note({i, 0}, wrong_weights);
+        }
     }
 }
 

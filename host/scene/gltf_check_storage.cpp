@@ -13,66 +13,17 @@ namespace glint
 namespace
 {
 
-constexpr std::uint64_t largest_total = std::uint64_t{8} << 30; // most bytes of all buffers
 // An accessor without data is all zeros, for any count in the file. So limit these zeros.
 constexpr std::uint64_t most_zeros = std::uint64_t{1} << 24;
 
-// Fills model.is_read: false for buffers without bytes.
-void check_buffers(const Document &document, Model &model)
+void check_buffers(const json &root)
 {
-    const json &buffers = objects_of(document.root, "buffers");
-    std::uint64_t total = 0;
+    const json &buffers = objects_of(root, "buffers");
     for (std::size_t i = 0; i < buffers.size(); i++) {
         Place place = (Place() / "buffers")[i];
-        std::uint64_t length = whole_at(buffers[i], place, "byteLength", 1, largest_whole);
-        const json *uri = member(buffers[i], "uri");
-        if (uri != nullptr) {
-            text_of(*uri, place / "uri");
-        }
-        const bool has_bytes = uri != nullptr || (i == 0 && document.has_bin);
-        model.is_read.push_back(!is_fallback(buffers[i], place) && has_bytes);
-        total += model.is_read[i] ? std::min(length, largest_total + 1) : 0; // cannot overflow
-        if (total > largest_total) {
-            refuse(place / "byteLength", "the buffers have more than 8 GiB together (split the "
-                                         "scene)");
-        }
-    }
-}
-
-// Checks that a buffer has bytes to read.
-void expect_bytes(const Document &document, const Model &model, std::size_t buffer)
-{
-    if (model.is_read[buffer]) {
-        return;
-    }
-    Place place = (Place() / "buffers")[buffer];
-    if (is_fallback(objects_of(document.root, "buffers")[buffer], place)) {
-        refuse(place, "a fallback, but not only packed views refer to it (the file is damaged)");
-    }
-    refuse(place / "uri", document.has_bin
-                              ? "missing (only buffers[0] can be the BIN chunk)"
-                              : "missing (only a .glb with a BIN chunk can leave it out)");
-}
-
-// The references to a buffer.
-struct Users {
-    bool plain = false;    // a view refers to its bytes
-    bool packed = false;   // a view refers to it, but is unpacked from another buffer
-    bool unpacked = false; // an extension refers to packed bytes in it
-};
-
-// Decides which buffers to read. A buffer whose data is packed elsewhere is not read, even if it
-// has bytes.
-void choose_buffers(const Document &document, const std::vector<Users> &users, Model &model)
-{
-    const json &buffers = objects_of(document.root, "buffers");
-    for (std::size_t i = 0; i < users.size(); i++) {
-        const bool is_needed = users[i].plain || users[i].unpacked;
-        const bool stands_in = users[i].packed || is_fallback(buffers[i], (Place() / "buffers")[i]);
-        if (is_needed || !stands_in) {
-            expect_bytes(document, model, i);
-        }
-        model.is_read[i] = model.is_read[i] && (is_needed || !stands_in);
+        whole_at(buffers[i], place, "byteLength", 1, largest_whole);
+        optional_text(buffers[i], place, "uri");
+        is_fallback(buffers[i], place);
     }
 }
 
@@ -93,12 +44,10 @@ tinygltf::BufferView check_view(const json &root, const json &view, const Place 
                                          std::to_string(buffer) + "], which has " +
                                          counted(there, "byte") + " (the file is damaged)");
     }
+    // 0 means what a missing stride means, as in glTF 1.0: packed tightly.
     const json *stride_value = member(view, "byteStride");
     std::uint64_t stride =
-        stride_value == nullptr ? 0 : whole_number(*stride_value, place / "byteStride", 4, 252);
-    if (stride % 4 != 0) {
-        refuse(place / "byteStride", "not a multiple of 4 (glTF 2.0 requires it)");
-    }
+        stride_value == nullptr ? 0 : whole_number(*stride_value, place / "byteStride", 0, 252);
     tinygltf::BufferView made;
     made.buffer = static_cast<int>(buffer);
     made.byteOffset = offset;
@@ -107,21 +56,13 @@ tinygltf::BufferView check_view(const json &root, const json &view, const Place 
     return made;
 }
 
-void check_views(const Document &document, Model &model)
+void check_views(const json &root, Model &model)
 {
-    const json &views = objects_of(document.root, "bufferViews");
-    std::vector<Users> users(objects_of(document.root, "buffers").size());
+    const json &views = objects_of(root, "bufferViews");
     for (std::size_t i = 0; i < views.size(); i++) {
-        model.bufferViews.push_back(
-            check_view(document.root, views[i], (Place() / "bufferViews")[i]));
-        const bool is_packed = check_packed_view(document.root, i, model);
-        Users &target = users[static_cast<std::size_t>(model.bufferViews[i].buffer)];
-        (is_packed ? target.packed : target.plain) = true;
-        if (is_packed) {
-            users[model.packed.back().buffer].unpacked = true;
-        }
+        model.bufferViews.push_back(check_view(root, views[i], (Place() / "bufferViews")[i]));
+        check_packed_view(root, i, model);
     }
-    choose_buffers(document, users, model);
 }
 
 std::uint64_t component_size(std::uint64_t component_type)
@@ -309,7 +250,7 @@ void check_accessor(const json &source, const Place &place, Model &model)
 
 } // namespace
 
-void check_format(const tinygltf::Accessor &accessor, const Place &place, const Format &format)
+bool has_format(const tinygltf::Accessor &accessor, const Format &format)
 {
     const int component = accessor.componentType;
     const bool normalized = accessor.normalized;
@@ -318,14 +259,21 @@ void check_format(const tinygltf::Accessor &accessor, const Place &place, const 
         good || (format.normalized_ints && normalized && (component == 5120 || component == 5122));
     good = good || (format.unsigned_ints && normalized && (component == 5121 || component == 5123));
     good = good || (format.quantized && component >= 5120 && component <= 5123);
-    if (!good || accessor.type != format.type) {
+    return good && accessor.type == format.type;
+}
+
+void check_format(const tinygltf::Accessor &accessor, const Place &place, const Format &format)
+{
+    if (!has_format(accessor, format)) {
+        const int component = accessor.componentType;
         std::string wanted = std::string(type_name(format.type)) + " of floats (5126)";
         if (format.normalized_ints || format.quantized || format.unsigned_ints) {
             wanted += ", bytes or shorts";
         }
         refuse(place, "the accessor holds " + std::string(type_name(accessor.type)) +
                           " of component type " + std::to_string(component) +
-                          (normalized ? ", normalized" : "") + " (it must be " + wanted + ")");
+                          (accessor.normalized ? ", normalized" : "") + " (it must be " + wanted +
+                          ")");
     }
 }
 
@@ -343,11 +291,11 @@ void check_zeros(const Model &model)
     }
 }
 
-void check_storage(const Document &document, Model &model)
+void check_storage(const json &root, Model &model)
 {
-    check_buffers(document, model);
-    check_views(document, model);
-    const json &accessors = objects_of(document.root, "accessors");
+    check_buffers(root);
+    check_views(root, model);
+    const json &accessors = objects_of(root, "accessors");
     for (std::size_t i = 0; i < accessors.size(); i++) {
         check_accessor(accessors[i], (Place() / "accessors")[i], model);
     }

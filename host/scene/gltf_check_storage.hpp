@@ -2,14 +2,14 @@
 #ifndef GLINT_SCENE_GLTF_CHECK_STORAGE_HPP
 #define GLINT_SCENE_GLTF_CHECK_STORAGE_HPP
 
-#include "scene/gltf_file.hpp"
+#include "scene/gltf_json.hpp"
 #include "scene/gltf_model.hpp"
 
 namespace glint
 {
 
 // Fills the model's views and accessors. Reads no buffer.
-void check_storage(const Document &document, Model &model);
+void check_storage(const json &root, Model &model);
 
 // Refuses too many zeros: accessors without data that no extension fills. Call it after the meshes
 // are checked.
@@ -23,6 +23,7 @@ struct Format {
     bool quantized;             // any format that KHR_mesh_quantization allows for positions
     bool unsigned_ints = false; // normalised unsigned byte or short
 };
+bool has_format(const tinygltf::Accessor &accessor, const Format &format);
 void check_format(const tinygltf::Accessor &accessor, const Place &place, const Format &format);
 
 } // namespace glint

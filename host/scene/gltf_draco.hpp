@@ -14,8 +14,8 @@ namespace glint
 void check_draco(const json &source, const Place &place, Model &model);
 
 // Decodes model.draco in the decoder's process, each view once. The primitives then refer to new
-// accessors. Refuses damaged data, and data that does not match the accessors. Throws a shortage if
-// memory is short.
+// accessors, with the counts of Draco's data; a note says where the file's accessors have others.
+// Refuses damaged data. Throws a shortage if memory is short.
 void decode_draco(Model &model);
 
 } // namespace glint

@@ -252,25 +252,15 @@ std::string folder_of(const std::string &path)
     return result;
 }
 
-File open_regular(const std::string &path, const std::string &uri, const Place &place)
-{
-    File file(path);
-    std::string trouble = file.trouble();
-    if (!trouble.empty()) {
-        refuse(place, in_quotes(uri) + ": " + trouble);
-    }
-    return file;
-}
-
 Bytes read_external(const Document &document, const std::string &uri, const Place &place,
                     std::uint64_t length)
 {
-    const std::string path = find_uri(document.folder, uri, place);
-    if (path.empty()) {
-        refuse(place, in_quotes(uri) + " cannot be opened: " + std::strerror(errno) +
-                          " (put the file beside the scene)");
+    const FoundFile found = find_uri(document.folder, uri);
+    File file(found.path);
+    const std::string trouble = found.fault.empty() ? file.trouble() : found.fault;
+    if (!trouble.empty()) {
+        refuse(place, in_quotes(uri) + ": " + trouble);
     }
-    const File file = open_regular(path, uri, place);
     if (file.size() < length) {
         refuse(place, in_quotes(uri) + " has " + counted(file.size(), "byte") +
                           ", byteLength says " + std::to_string(length) +
@@ -358,13 +348,11 @@ Bytes read_buffer(Document &document, std::size_t i)
     return bytes;
 }
 
-void check_uri(const Document &document, const std::string &uri, const Place &place)
+FoundFile find_file(const Document &document, const std::string &uri)
 {
-    const std::string path =
-        is_data_uri(uri) ? std::string() : find_uri(document.folder, uri, place);
-    if (!path.empty()) {
-        open_regular(path, uri, place);
-    }
+    const FoundFile found = find_uri(document.folder, uri);
+    const std::string trouble = found.fault.empty() ? File(found.path).trouble() : "";
+    return trouble.empty() ? found : FoundFile{"", trouble};
 }
 
 } // namespace glint

@@ -25,9 +25,9 @@ void read_document(const char *path, Document &document);
 // text from the JSON, so that memory does not hold it twice.
 Bytes read_buffer(Document &document, std::size_t index);
 
-// Refuses a URI that glint must never open. A data URI passes, and also a regular file under the
-// folder. A missing file passes too.
-void check_uri(const Document &document, const std::string &uri, const Place &place);
+// Finds the regular file under the document's folder that a URI names. A FIFO or a device would
+// hang.
+FoundFile find_file(const Document &document, const std::string &uri);
 
 } // namespace glint
 

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "scene/gltf_attributes.hpp"
 #include "scene/gltf_bounds.hpp"
+#include "scene/gltf_coverage.hpp"
 #include "scene/tangents.h"
 
 #include <algorithm>
@@ -422,7 +423,9 @@ void keep_used_materials(Load &load, std::size_t default_material, glint_scene &
         material = used_material.material;
         material.name = copy_text(material_name(root, source));
         scene.material_count++;
-        survey_material(root, source, used_material, load.tally);
+        const bool loses =
+            loses_alpha(scene, load.images.textures(), material, static_cast<std::uint32_t>(i));
+        survey_material(root, source, used_material, loses, load.tally);
     }
     // Renumber the materials of instances and triangles.
     for (std::size_t i = 0; i < scene.instance_count; i++) {

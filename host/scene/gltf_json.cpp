@@ -44,8 +44,7 @@ std::string Place::text() const
 
 void refuse(const Place &place, const std::string &cause)
 {
-    std::string where = place.text();
-    throw refusal(where.empty() ? cause : where + ": " + cause);
+    throw refusal(place.text(), cause);
 }
 
 std::string in_quotes(const std::string &text)
@@ -126,7 +125,7 @@ std::size_t find_named(const std::vector<std::string> &names, const char *name, 
 const json *member(const json &object, const char *key)
 {
     auto found = object.find(key);
-    return found == object.end() ? nullptr : &*found;
+    return found == object.end() || found->is_null() ? nullptr : &*found;
 }
 
 static const json &required(const json &object, const Place &place, const char *key)
@@ -180,9 +179,10 @@ const json &optional_array(const json &object, const Place &place, const char *k
 const json *optional_object(const json &object, const Place &place, const char *key)
 {
     const json *found = member(object, key);
-    if (found != nullptr) {
-        expect_object(*found, place / key);
+    if (found == nullptr || (found->is_array() && found->empty())) {
+        return nullptr;
     }
+    expect_object(*found, place / key);
     return found;
 }
 
@@ -232,6 +232,12 @@ std::string optional_text(const json &object, const Place &place, const char *ke
 {
     const json *found = member(object, key);
     return found == nullptr ? std::string() : text_of(*found, place / key);
+}
+
+std::string name_of(const json &object)
+{
+    const json *found = member(object, "name");
+    return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();
 }
 
 bool optional_boolean(const json &object, const Place &place, const char *key, bool fallback)

@@ -1,5 +1,10 @@
 // Reads unchecked JSON. A function that refuses a value names its place in the document. Refusals
 // are exceptions inside the loader; gltf.cpp turns them into a status.
+//
+// The rule (docs/formats.md): what may be left out is warned about, and the rest is drawn. What
+// would give a wrong or unsafe picture is refused. So who reads a part that may be left out (a
+// texture, a light, an animation's channel) catches its refusals and warns instead. A member that
+// is null counts as missing.
 #ifndef GLINT_SCENE_GLTF_JSON_HPP
 #define GLINT_SCENE_GLTF_JSON_HPP
 
@@ -16,11 +21,28 @@ namespace glint
 
 using json = nlohmann::json;
 
-// Bad input. what() is "object[index]: cause (what to do)", without the file's name.
+// Bad input. what() is "object[index]: cause (what to do)", without the file's name. where() is the
+// place, which may be empty.
 class refusal : public std::runtime_error
 {
   public:
     using std::runtime_error::runtime_error;
+    refusal(const std::string &where, const std::string &cause)
+        : std::runtime_error(where.empty() ? cause : where + ": " + cause), where_(where),
+          cause_(cause)
+    {
+    }
+    const std::string &where() const
+    {
+        return where_;
+    }
+    std::string cause() const
+    {
+        return cause_.empty() ? what() : cause_;
+    }
+
+  private:
+    std::string where_, cause_;
 };
 
 // The machine cannot hold the scene: GLINT_OUT_OF_MEMORY, with a message.
@@ -61,7 +83,7 @@ std::string counted(std::size_t count, const char *noun);
 // with a list of the known ones; `noun` is the word for such a thing.
 std::size_t find_named(const std::vector<std::string> &names, const char *name, const char *noun);
 
-// Returns a member; NULL if the object does not have it.
+// Returns a member; NULL if the object does not have it, or if it is null.
 const json *member(const json &object, const char *key);
 
 // Return a required member that is an object or an array. Refuse a missing member or another type.
@@ -77,7 +99,8 @@ void check_objects(const json &root, const char *key);
 const json &objects_of(const json &root, const char *key);
 // Returns an optional array of any elements.
 const json &optional_array(const json &object, const Place &place, const char *key);
-// Returns an optional object; NULL if it is missing.
+// Returns an optional object; NULL if it is missing. An empty array counts as missing: some
+// languages write an empty object so.
 const json *optional_object(const json &object, const Place &place, const char *key);
 
 // Returns an object's extension by name; NULL if it is missing. Refuses an extension that is no
@@ -89,6 +112,9 @@ char *copy_text(const std::string &text);
 
 std::string text_of(const json &value, const Place &place);
 std::string optional_text(const json &object, const Place &place, const char *key);
+// Returns the member "name", which any object may have; empty if it is no text: a name changes no
+// picture.
+std::string name_of(const json &object);
 bool optional_boolean(const json &object, const Place &place, const char *key, bool fallback);
 
 // Return a whole number in [low, high]; 3.0 is whole.

@@ -1,5 +1,4 @@
-// Checks punctual lights as part of the document, and places them at their nodes. See
-// gltf_lights.hpp.
+// Reads punctual lights, and places them at their nodes. See gltf_lights.hpp.
 #include "scene/gltf_lights.hpp"
 
 #include "base/memory.h"
@@ -17,80 +16,81 @@ namespace
 constexpr double half_pi = 1.57079632679489661923;
 const char *const name_of_extension = "KHR_lights_punctual";
 
-double check_positive(const json &object, const Place &place, const char *key, double fallback)
+using Notes = std::vector<std::string>;
+
+// Refuses light that takes light away.
+double read_positive(const json &object, const Place &place, const char *key, double fallback)
 {
     const json *found = member(object, key);
     const double number = found == nullptr ? fallback : number_of(*found, place / key);
     if (number < 0) {
-        refuse(place / key, shown(number) + " is less than 0 (light cannot be taken away)");
+        refuse(place / key, std::string(key) + " is less than 0");
     }
     return number;
 }
 
-std::vector<double> check_color(const json &light, const Place &light_place)
+std::vector<double> read_color(const json &light, const Place &light_place)
 {
     std::vector<double> color = {1, 1, 1};
-    const json *found = member(light, "color");
-    if (found == nullptr) {
-        return color;
-    }
     const Place place = light_place / "color";
-    if (!found->is_array() || found->size() != color.size()) {
-        refuse(place, "it must be an array of 3 numbers");
-    }
-    for (std::size_t i = 0; i < color.size(); i++) {
-        color[i] = number_of((*found)[i], place[i]);
+    const json &found = optional_array(light, light_place, "color");
+    for (std::size_t i = 0; i < std::min(found.size(), color.size()); i++) {
+        color[i] = number_of(found[i], place[i]);
         if (color[i] < 0) {
-            refuse(place[i], shown(color[i]) + " is less than 0 (light cannot be taken away)");
+            refuse(place, "color is less than 0");
         }
     }
     return color;
 }
 
 // Returns the range; 0: unlimited.
-double check_range(const json &light, const Place &place)
+double read_range(const json &light, const Place &place, Notes &notes)
 {
     const json *found = member(light, "range");
     const double range = found == nullptr ? 0 : number_of(*found, place / "range");
     if (found != nullptr && !(range > 0)) {
-        refuse(place / "range",
-               shown(range) + ": it must be more than 0 (leave it out for a light without an end)");
+        notes.emplace_back("range is no distance (it counts as unlimited)");
+        return 0;
     }
     return range;
 }
 
-tinygltf::SpotLight check_spot(const json &light, const Place &light_place)
+tinygltf::SpotLight read_spot(const json &light, const Place &light_place, Notes &notes)
 {
     const Place place = light_place / "spot";
     const json &source = object_at(light, light_place, "spot");
+    auto angle = [&](const char *key, double fallback, double most) {
+        const json *found = member(source, key);
+        const double number = found == nullptr ? fallback : number_of(*found, place / key);
+        if (!(number >= 0 && number <= most + 1e-6)) { // exporters round
+            notes.push_back(std::string(key) +
+                            " is out of range (the nearest angle within counts)");
+        }
+        return std::min(std::max(number, 0.0), most);
+    };
     tinygltf::SpotLight spot;
-    spot.innerConeAngle = check_positive(source, place, "innerConeAngle", 0);
-    const json *outer = member(source, "outerConeAngle");
-    spot.outerConeAngle = outer == nullptr
-                              ? half_pi / 2
-                              : number_within(*outer, place / "outerConeAngle", 0, half_pi);
-    if (!(spot.innerConeAngle < spot.outerConeAngle)) {
-        refuse(place / "innerConeAngle", shown(spot.innerConeAngle) +
-                                             " is not less than the outerConeAngle, " +
-                                             shown(spot.outerConeAngle) + " (make it smaller)");
-    }
+    spot.outerConeAngle = angle("outerConeAngle", half_pi / 2, half_pi);
+    // Equal cones have a hard edge. Blender's exporter writes them.
+    spot.innerConeAngle = angle("innerConeAngle", 0, spot.outerConeAngle);
     return spot;
 }
 
-tinygltf::Light check_light(const json &source, const Place &place)
+tinygltf::Light read_light(const json &source, const Place &place, Notes &notes)
 {
     expect_object(source, place);
     tinygltf::Light light;
-    light.name = optional_text(source, place, "name");
-    light.type = optional_text(source, place, "type");
-    light.color = check_color(source, place);
-    light.intensity = check_positive(source, place, "intensity", 1);
-    light.range = check_range(source, place);
-    if (light.type == "spot") {
-        light.spot = check_spot(source, place);
-    } else if (light.type != "point" && light.type != "directional") {
-        refuse(place / "type", in_quotes(light.type) + " is none (directional, point or spot)");
+    const std::string type = optional_text(source, place, "type");
+    if (type != "spot" && type != "point" && type != "directional") {
+        refuse(place / "type", "type " + in_quotes(type) + " is none (directional, point or spot)");
     }
+    light.name = name_of(source);
+    light.color = read_color(source, place);
+    light.intensity = read_positive(source, place, "intensity", 1);
+    light.range = read_range(source, place, notes);
+    if (type == "spot") {
+        light.spot = read_spot(source, place, notes);
+    }
+    light.type = type;
     return light;
 }
 
@@ -108,31 +108,42 @@ bool is_finite(glint_vec3 v)
 
 } // namespace
 
-void check_lights(const json &root, Model &model)
+void read_lights(const json &root, Model &model)
 {
-    const json *extension = extension_of(root, Place(), name_of_extension);
-    if (extension == nullptr) {
-        return;
-    }
     const Place place = Place() / "extensions" / name_of_extension;
-    const json &lights = array_at(*extension, place, "lights");
-    for (std::size_t i = 0; i < lights.size(); i++) {
-        model.lights.push_back(check_light(lights[i], (place / "lights")[i]));
+    try {
+        const json *extension = extension_of(root, Place(), name_of_extension);
+        if (extension == nullptr) {
+            return;
+        }
+        const json &lights = optional_array(*extension, place, "lights");
+        model.lights.resize(lights.size());
+        model.light_notes.resize(lights.size());
+        for (std::size_t i = 0; i < lights.size(); i++) {
+            try {
+                model.lights[i] =
+                    read_light(lights[i], (place / "lights")[i], model.light_notes[i]);
+            } catch (const refusal &fault) {
+                model.light_notes[i] = {fault.cause() + "; the light is left out"};
+            }
+        }
+    } catch (const refusal &) {
+        model.lights.clear(); // nodes say that their lights are not there
     }
 }
 
-int check_node_light(const json &node, const Place &place, const Model &model)
+int read_node_light(const json &node, const Place &place, std::size_t index, Model &model)
 {
-    const json *extension = extension_of(node, place, name_of_extension);
-    if (extension == nullptr) {
+    try {
+        const json *extension = extension_of(node, place, name_of_extension);
+        const Place at = place / "extensions" / name_of_extension;
+        return extension == nullptr ? -1
+                                    : static_cast<int>(optional_index(
+                                          *extension, at, "light", model.lights.size(), "light"));
+    } catch (const refusal &fault) {
+        model.node_notes[index].push_back(fault.cause() + "; the node has no light");
         return -1;
     }
-    const Place at = place / "extensions" / name_of_extension;
-    const json *light = member(*extension, "light");
-    if (light == nullptr) {
-        refuse(at / "light", "missing (KHR_lights_punctual requires it)");
-    }
-    return static_cast<int>(index_of(*light, at / "light", model.lights.size(), "light"));
 }
 
 void allocate_lights(const Load &load, glint_scene &scene)
@@ -152,6 +163,13 @@ void add_light(Load &load, std::size_t node, const glint_mat4 &to_world, glint_s
 {
     const auto index = static_cast<std::size_t>(load.model.light_of[node]);
     const tinygltf::Light &source = load.model.lights[index];
+    for (const std::string &note : load.model.light_notes[index]) {
+        load.tally.add(note, "lights[" + std::to_string(index) + "]" +
+                                 (source.name.empty() ? "" : " " + in_quotes(source.name)));
+    }
+    if (source.type.empty()) {
+        return;
+    }
     const auto &m = to_world.m;
     glint_punctual_light &light = scene.lights[scene.light_count];
     light = {};

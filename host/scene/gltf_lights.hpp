@@ -1,4 +1,4 @@
-// Checks and places punctual lights (KHR_lights_punctual).
+// Reads and places punctual lights (KHR_lights_punctual).
 #ifndef GLINT_SCENE_GLTF_LIGHTS_HPP
 #define GLINT_SCENE_GLTF_LIGHTS_HPP
 
@@ -9,17 +9,18 @@
 namespace glint
 {
 
-// Fills model.lights with the file's lights.
-void check_lights(const json &root, Model &model);
+// Fills model.lights with the file's lights. A light that cannot be read has no type and a note.
+void read_lights(const json &root, Model &model);
 
-// Returns the light of a node, an index into model.lights; −1: none.
-int check_node_light(const json &node, const Place &place, const Model &model);
+// Returns the light of nodes[index], an index into model.lights; −1: none. Notes a light that is
+// not there.
+int read_node_light(const json &node, const Place &place, std::size_t index, Model &model);
 
 // Allocates the scene's lights, enough for all nodes that it shows.
 void allocate_lights(const Load &load, glint_scene &scene);
 
-// Adds the light of a node at the node's place. Leaves out a light that shines nowhere, with a
-// warning.
+// Adds the light of a node at the node's place. Leaves out, with a warning, a light that shines
+// nowhere or cannot be read.
 void add_light(Load &load, std::size_t node, const glint_mat4 &to_world, glint_scene &scene);
 
 } // namespace glint

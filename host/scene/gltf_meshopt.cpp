@@ -241,12 +241,12 @@ bool is_fallback(const json &buffer, const Place &place)
            optional_boolean(*extension.object, extension.place, "fallback", false);
 }
 
-bool check_packed_view(const json &root, std::size_t index, Model &model)
+void check_packed_view(const json &root, std::size_t index, Model &model)
 {
     const Place place = (Place() / "bufferViews")[index];
     const Extension extension = find_extension(objects_of(root, "bufferViews")[index], place);
     if (extension.object == nullptr) {
-        return false;
+        return;
     }
     PackedView packed;
     packed.view = index;
@@ -264,7 +264,6 @@ bool check_packed_view(const json &root, std::size_t index, Model &model)
     }
     check_target(packed, model.bufferViews[index], extension);
     model.packed.push_back(packed);
-    return true;
 }
 
 void unpack_views(Model &model)

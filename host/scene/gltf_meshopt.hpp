@@ -13,8 +13,8 @@ namespace glint
 bool is_fallback(const json &buffer, const Place &place);
 
 // Checks the extension of bufferViews[index] and adds it to model.packed. The view's own members
-// are already checked. Returns false if the view has no such extension.
-bool check_packed_view(const json &root, std::size_t index, Model &model);
+// are already checked. Does nothing if the view has no such extension.
+void check_packed_view(const json &root, std::size_t index, Model &model);
 
 // Unpacks each of model.packed into a buffer of its own, to which its view then refers. The buffers
 // must be loaded. Refuses damaged data; throws a shortage if memory is short.

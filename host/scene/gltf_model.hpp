@@ -16,6 +16,7 @@
 #include <set>
 #include <string>
 #include <tiny_gltf.h>
+#include <utility>
 #include <vector>
 
 namespace glint
@@ -26,8 +27,9 @@ using VariantMaterials = std::map<std::size_t, int>;
 
 // A primitive whose material depends on the variant: meshes[mesh].primitives[number].
 struct MappedPrimitive {
-    std::size_t mesh, number;
+    std::size_t mesh = 0, number = 0;
     VariantMaterials materials;
+    std::string fault; // of the mapping; empty: none
 };
 
 // A packed view (gltf_meshopt.hpp): `count` elements of `stride` bytes, packed in `length` bytes at
@@ -59,14 +61,24 @@ struct Model : tinygltf::Model {
     bool requires_draco = false;
     std::vector<DracoPrimitive> draco;
     std::set<std::size_t> filled_accessors; // accessors that Draco fills
-    // [buffer]; false: a placeholder for unpacked views.
-    std::vector<bool> is_read;
+    // [buffer]: why it could not be read. Only images need such a buffer.
+    std::vector<std::string> buffer_faults;
     std::vector<std::string> variants; // names of the file's material variants
     std::ptrdiff_t variant = -1;       // index of the chosen variant; −1: the plain materials
     std::vector<MappedPrimitive> mapped;
-    std::vector<int> light_of; // [node]: its punctual light; −1: none
+    std::set<std::size_t> hidden_nodes; // KHR_node_visibility: hidden, with all below
+    std::vector<int> light_of;          // [node]: its punctual light; −1: none
+    std::vector<std::vector<std::string>> light_notes; // [light]: warnings
     // [mesh]: the number of morph targets, the most of any primitive.
     std::vector<std::size_t> target_counts;
+    // Warnings about a node, and about a primitive, {mesh, number}; given if they are shown.
+    std::map<std::size_t, std::vector<std::string>> node_notes;
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::string>> notes;
+
+    void note(std::pair<std::size_t, std::size_t> primitive, const std::string &text)
+    {
+        notes[primitive].push_back(text);
+    }
 };
 
 // Returns the bytes of all loaded buffers.

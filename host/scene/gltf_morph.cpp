@@ -12,7 +12,6 @@ void check_targets(const json &source, const Place &primitive_place, const Model
                    tinygltf::Primitive &primitive)
 {
     const json &targets = optional_array(source, primitive_place, "targets");
-    const auto base = primitive.attributes.find("POSITION");
     for (std::size_t i = 0; i < targets.size(); i++) {
         Place place = (primitive_place / "targets")[i];
         expect_object(targets[i], place);
@@ -30,34 +29,16 @@ void check_targets(const json &source, const Place &primitive_place, const Model
             const tinygltf::Accessor &accessor = model.accessors[index];
             check_format(accessor, attribute,
                          {row->type, true, model.quantized, row->any_integers && model.quantized});
-            if (base != primitive.attributes.end()) {
-                const std::size_t vertices =
-                    model.accessors[static_cast<std::size_t>(base->second)].count;
-                if (accessor.count != vertices) {
-                    refuse(attribute, "accessors[" + std::to_string(index) + "] has " +
-                                          counted(accessor.count, "element") +
-                                          ", the primitive's POSITION has " +
-                                          std::to_string(vertices) + " (they must agree)");
-                }
-            }
         }
     }
 }
 
-std::vector<double> check_weights(const json &object, const Place &place, std::size_t targets)
+std::vector<double> check_weights(const json &object, const Place &place)
 {
     std::vector<double> weights;
-    const json *found = member(object, "weights");
-    if (found == nullptr) {
-        return weights;
-    }
-    const json &numbers = array_at(object, place, "weights");
-    if (numbers.size() != targets) {
-        refuse(place / "weights", counted(numbers.size(), "number") + " for " +
-                                      counted(targets, "morph target") + " (they must agree)");
-    }
-    weights.reserve(targets);
-    for (std::size_t i = 0; i < targets; i++) {
+    const json &numbers = optional_array(object, place, "weights");
+    weights.reserve(numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); i++) {
         weights.push_back(number_of(numbers[i], (place / "weights")[i]));
     }
     return weights;

@@ -32,8 +32,13 @@ struct MorphTarget {
 void check_targets(const json &source, const Place &primitive_place, const Model &model,
                    tinygltf::Primitive &primitive);
 
-// Returns the member "weights" of a mesh or a node: one per target, or none.
-std::vector<double> check_weights(const json &object, const Place &place, std::size_t targets);
+// Returns the member "weights" of a mesh or a node. There should be one per target, or none;
+// missing ones are 0.
+std::vector<double> check_weights(const json &object, const Place &place);
+
+// The note about other numbers of weights.
+constexpr const char *wrong_weights =
+    "there are not as many weights as morph targets (missing ones are 0)";
 
 // The sum of targets times their weights. Targets of weight 0 cost nothing. Borrows the targets.
 class Morph

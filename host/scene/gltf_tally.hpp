@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace glint
@@ -49,6 +50,15 @@ class Tally
         }
     }
 
+    // Adds a warning about a thing that several materials may share: counts each `where` once.
+    void add_once(const std::string &text, const std::string &where)
+    {
+        add(text, where);
+        if (!once_.insert(text + "\n" + where).second) {
+            entries_[index_of_.at(text)].count--;
+        }
+    }
+
     // Returns which of the first 64 lines of report() concern a material: bit i for line i.
     std::uint64_t lines_about(int material) const
     {
@@ -74,6 +84,7 @@ class Tally
     };
     std::vector<Entry> entries_;
     std::unordered_map<std::string, std::size_t> index_of_;
+    std::unordered_set<std::string> once_; // added by add_once()
     int material_ = -1;
     std::unordered_map<int, std::uint64_t> lines_about_;
 };

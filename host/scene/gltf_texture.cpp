@@ -22,76 +22,11 @@ const char *const transform_name = "KHR_texture_transform";
 // have `source`, for programs that do not read this format.
 const std::array<const char *, 2> sources = {"EXT_texture_webp", "MSFT_texture_dds"};
 
-void check_image(const Document &document, const json &image, const Place &place)
-{
-    const json *uri = member(image, "uri");
-    std::size_t views = objects_of(document.root, "bufferViews").size();
-    std::ptrdiff_t view = optional_index(image, place, "bufferView", views, "bufferView");
-    optional_text(image, place, "name");
-    if (uri != nullptr) {
-        check_uri(document, text_of(*uri, place / "uri"), place / "uri");
-    } else if (view < 0 && optional_object(image, place, "extensions") == nullptr) {
-        refuse(place, "neither a uri nor a bufferView (an image needs one)");
-    }
-}
-
-struct Word {
-    std::uint64_t code;
-    const char *name;
-};
-
-void check_code(const json &object, const Place &place, const char *key,
-                std::initializer_list<Word> words)
-{
-    const json *found = member(object, key);
-    if (found == nullptr) {
-        return;
-    }
-    std::uint64_t code = whole_number(*found, place / key, 0, largest_whole);
-    std::string there;
-    for (const Word &word : words) {
-        if (word.code == code) {
-            return;
-        }
-        there += (there.empty() ? "" : ", ") + std::to_string(word.code) + " " + word.name;
-    }
-    refuse(place / key, std::to_string(code) + " is none (there is " + there + ")");
-}
-
+// OpenGL's codes.
 constexpr std::uint64_t nearest = 9728, linear = 9729, nearest_mipmap_nearest = 9984,
                         linear_mipmap_nearest = 9985, nearest_mipmap_linear = 9986,
                         linear_mipmap_linear = 9987, clamp_to_edge = 33071, mirrored_repeat = 33648,
                         repeat = 10497;
-
-void check_sampler(const json &sampler, const Place &place)
-{
-    check_code(sampler, place, "magFilter", {{nearest, "nearest"}, {linear, "linear"}});
-    check_code(sampler, place, "minFilter",
-               {{nearest, "nearest"},
-                {linear, "linear"},
-                {nearest_mipmap_nearest, "nearest mipmap nearest"},
-                {linear_mipmap_nearest, "linear mipmap nearest"},
-                {nearest_mipmap_linear, "nearest mipmap linear"},
-                {linear_mipmap_linear, "linear mipmap linear"}});
-    for (const char *key : {"wrapS", "wrapT"}) {
-        check_code(sampler, place, key,
-                   {{clamp_to_edge, "clamp to edge"},
-                    {mirrored_repeat, "mirrored repeat"},
-                    {repeat, "repeat"}});
-    }
-}
-
-void check_texture(const json &root, const json &texture, const Place &place)
-{
-    std::size_t images = objects_of(root, "images").size();
-    optional_index(texture, place, "source", images, "image");
-    optional_index(texture, place, "sampler", objects_of(root, "samplers").size(), "sampler");
-    for (const char *name : sources) {
-        if (const json *other = extension_of(texture, place, name)) {
-            optional_index(*other, place / "extensions" / name, "source", images, "image");
-        }
-    }
-}
 
 // Reads two numbers of KHR_texture_transform.
 void read_pair(const json &object, const Place &place, const char *key, double pair[2])
@@ -133,23 +68,39 @@ std::uint64_t texcoord_of(const json &object, const Place &place)
     return optional_whole(object, place, "texCoord", 0, 1 << 20);
 }
 
-glint_wrap wrap_of(const json &sampler, const char *key)
+// Returns a sampler's code, which must be among `known`; the first of them if it is missing.
+std::uint64_t code_of(const json &sampler, const Place &place, const char *key,
+                      std::initializer_list<std::uint64_t> known)
 {
     const json *found = member(sampler, key);
-    const std::uint64_t code = found != nullptr ? found->get<std::uint64_t>() : repeat;
+    if (found == nullptr) {
+        return *known.begin();
+    }
+    const std::uint64_t code = whole_number(*found, place / key, 0, largest_whole);
+    if (std::find(known.begin(), known.end(), code) == known.end()) {
+        refuse(place / key, "no code of a filter or wrapping");
+    }
+    return code;
+}
+
+glint_wrap wrap_of(const json &sampler, const Place &place, const char *key)
+{
+    const std::uint64_t code =
+        code_of(sampler, place, key, {repeat, clamp_to_edge, mirrored_repeat});
     return code == clamp_to_edge     ? GLINT_WRAP_CLAMP
            : code == mirrored_repeat ? GLINT_WRAP_MIRROR
                                      : GLINT_WRAP_REPEAT;
 }
 
-void read_sampler(const json &sampler, glint_texture_use &use)
+void read_sampler(const json &sampler, const Place &place, glint_texture_use &use)
 {
-    const json *large = member(sampler, "magFilter"), *small = member(sampler, "minFilter");
-    const std::uint64_t magnified = large != nullptr ? large->get<std::uint64_t>() : linear;
+    const std::uint64_t magnified = code_of(sampler, place, "magFilter", {linear, nearest});
     const std::uint64_t minified =
-        small != nullptr ? small->get<std::uint64_t>() : linear_mipmap_linear;
-    use.wrap_s = wrap_of(sampler, "wrapS");
-    use.wrap_t = wrap_of(sampler, "wrapT");
+        code_of(sampler, place, "minFilter",
+                {linear_mipmap_linear, nearest, linear, nearest_mipmap_nearest,
+                 linear_mipmap_nearest, nearest_mipmap_linear});
+    use.wrap_s = wrap_of(sampler, place, "wrapS");
+    use.wrap_t = wrap_of(sampler, place, "wrapT");
     use.magnified_nearest = magnified == nearest;
     use.minified_nearest = minified == nearest || minified == nearest_mipmap_nearest ||
                            minified == nearest_mipmap_linear;
@@ -159,58 +110,86 @@ void read_sampler(const json &sampler, glint_texture_use &use)
                    : GLINT_MIP_LINEAR;
 }
 
-// Returns the image of a texture; −1: it names no image that glint reads.
-std::ptrdiff_t image_of(const json &root, const json &texture)
+// Returns the image of a texture. Refuses a texture that names no image that glint reads.
+std::size_t image_of(const json &root, const json &texture, const Place &place)
 {
     std::size_t images = objects_of(root, "images").size();
     for (const char *name : sources) {
-        const json *other = extension_of(texture, Place(), name);
+        const json *other = extension_of(texture, place, name);
         std::ptrdiff_t image =
-            other == nullptr ? -1 : optional_index(*other, Place(), "source", images, "image");
+            other == nullptr
+                ? -1
+                : optional_index(*other, place / "extensions" / name, "source", images, "image");
         if (image >= 0) {
-            return image;
+            return static_cast<std::size_t>(image);
         }
     }
-    return optional_index(texture, Place(), "source", images, "image");
+    const std::ptrdiff_t image = optional_index(texture, place, "source", images, "image");
+    if (image < 0) {
+        refuse(place, "no image of a kind that is read (PNG, JPEG, WebP, DDS)");
+    }
+    return static_cast<std::size_t>(image);
 }
 
 // ---- Images -------------------------------------------------------------------------------------
 
 // The bytes of an image, or its path; and its name in messages.
 struct ImageData {
-    std::string name, path;
+    std::string path;
     Bytes decoded; // the bytes of a data URI
     const unsigned char *bytes = nullptr;
     std::size_t size = 0;
 };
+
+// For example: images[0] "wood", "wood.png".
+std::string image_name(const json &image, const Place &place)
+{
+    std::string name = place.text();
+    const char *comma = " ";
+    for (const char *key : {"name", "uri"}) {
+        const json *text = member(image, key);
+        if (text != nullptr && text->is_string() &&
+            !is_data_uri(text->get_ref<const std::string &>())) {
+            name += comma + in_quotes(text->get_ref<const std::string &>());
+            comma = ", ";
+        }
+    }
+    return name;
+}
+
+void find_bytes(const Model &model, std::size_t view, ImageData &data)
+{
+    const tinygltf::BufferView &range = model.bufferViews[view];
+    const auto buffer = static_cast<std::size_t>(range.buffer);
+    const Bytes &all = model.buffers[buffer].data;
+    if (all.size() < range.byteOffset || all.size() - range.byteOffset < range.byteLength) {
+        throw refusal(model.buffer_faults[buffer]);
+    }
+    data.bytes = all.data() + range.byteOffset;
+    data.size = range.byteLength;
+}
 
 // Finds an image; throws a refusal if there is none.
 ImageData find_image(const Document &document, const Model &model, std::size_t index)
 {
     const json &image = objects_of(document.root, "images")[index];
     const Place place = (Place() / "images")[index];
-    const std::string title = optional_text(image, place, "name");
-    ImageData data;
-    data.name = place.text() + (title.empty() ? "" : " " + in_quotes(title));
     const json *uri = member(image, "uri");
     const std::ptrdiff_t view = optional_index(
         image, place, "bufferView", objects_of(document.root, "bufferViews").size(), "bufferView");
-    if (uri != nullptr && is_data_uri(uri->get_ref<const std::string &>())) {
+    ImageData data;
+    if (uri != nullptr && uri->is_string() && is_data_uri(uri->get_ref<const std::string &>())) {
         data.decoded = decode_data_uri(uri->get_ref<const std::string &>(), place / "uri");
         data.bytes = data.decoded.data();
         data.size = data.decoded.size();
     } else if (uri != nullptr) {
-        const std::string &text = uri->get_ref<const std::string &>();
-        data.name += (title.empty() ? " " : ", ") + in_quotes(text);
-        data.path = find_uri(document.folder, text, place / "uri");
-        if (data.path.empty()) {
-            throw refusal(data.name + ": cannot be opened: " + std::strerror(errno));
+        const FoundFile found = find_file(document, text_of(*uri, place / "uri"));
+        if (!found.fault.empty()) {
+            refuse(place, found.fault);
         }
+        data.path = found.path;
     } else if (view >= 0) {
-        const tinygltf::BufferView &bytes = model.bufferViews[static_cast<std::size_t>(view)];
-        const tinygltf::Buffer &buffer = model.buffers[static_cast<std::size_t>(bytes.buffer)];
-        data.bytes = buffer.data.data() + bytes.byteOffset;
-        data.size = bytes.byteLength;
+        find_bytes(model, static_cast<std::size_t>(view), data);
     } else {
         refuse(place, "neither a uri nor a bufferView");
     }
@@ -231,8 +210,8 @@ struct Work {
     int largest;
     int threads; // threads per image
     std::vector<glint_texture_levels> levels;
-    std::vector<std::string> faults;
-    bool is_short = false; // memory is short
+    std::vector<std::string> faults; // [use]; empty: the image was read
+    bool is_short = false;           // memory is short
 };
 
 void read_image(Work &work, std::size_t i)
@@ -244,7 +223,7 @@ void read_image(Work &work, std::size_t i)
     request.is_coverage = use.is_coverage;
     request.threads = work.threads;
     glint_error error = {};
-    const std::string &called = data.path.empty() ? data.name : data.path;
+    const std::string called = data.path.empty() ? "image" : data.path;
     glint_status status =
         data.path.empty() ? glint_image_find_source_in_memory(called.c_str(), data.bytes, data.size,
                                                               &request.source, &error)
@@ -254,7 +233,7 @@ void read_image(Work &work, std::size_t i)
     }
     if (status != GLINT_OK) {
         work.is_short = work.is_short || status == GLINT_OUT_OF_MEMORY;
-        work.faults[i] = data.name + ": " + cause_in(error, called);
+        work.faults[i] = cause_in(error, called);
     }
 }
 
@@ -266,6 +245,8 @@ void read_image_in_thread(std::size_t i, void *context)
         read_image(work, i);
     } catch (const std::bad_alloc &) {
         work.is_short = true;
+    } catch (const refusal &fault) {
+        work.faults[i] = fault.cause();
     } catch (const std::exception &fault) {
         work.faults[i] = fault.what();
     }
@@ -305,52 +286,41 @@ const std::array<TextureSlot, 19> &texture_slots()
     return slots;
 }
 
-void check_textures(const Document &document)
+glint_texture_use read_texture_info(const json &root, const json &info, const Place &place,
+                                    std::vector<Note> &notes)
 {
-    const json &root = document.root;
-    const json &images = objects_of(root, "images"), &samplers = objects_of(root, "samplers");
     const json &textures = objects_of(root, "textures");
-    for (std::size_t i = 0; i < images.size(); i++) {
-        check_image(document, images[i], (Place() / "images")[i]);
+    const std::ptrdiff_t index = optional_index(info, place, "index", textures.size(), "texture");
+    if (index < 0) {
+        refuse(place, "no index of a texture");
     }
-    for (std::size_t i = 0; i < samplers.size(); i++) {
-        check_sampler(samplers[i], (Place() / "samplers")[i]);
-    }
-    for (std::size_t i = 0; i < textures.size(); i++) {
-        check_texture(root, textures[i], (Place() / "textures")[i]);
-    }
-}
-
-void check_texture_info(const json &root, const json &info, const Place &place)
-{
-    if (member(info, "index") == nullptr) {
-        refuse(place / "index", "missing (glTF 2.0 requires it)");
-    }
-    index_of(info["index"], place / "index", objects_of(root, "textures").size(), "texture");
-    texcoord_of(info, place);
+    const Place texture_place = (Place() / "textures")[static_cast<std::size_t>(index)];
+    const json &texture = textures[static_cast<std::size_t>(index)];
+    glint_texture_use use = {};
+    use.image = static_cast<std::uint32_t>(image_of(root, texture, texture_place)) + 1;
+    std::uint64_t texcoord = texcoord_of(info, place);
     if (const json *transform = extension_of(info, place, transform_name)) {
         const Place at = place / "extensions" / transform_name;
-        float unused[6];
-        read_transform(*transform, at, unused);
-        texcoord_of(*transform, at);
+        read_transform(*transform, at, use.transform);
+        texcoord =
+            member(*transform, "texCoord") != nullptr ? texcoord_of(*transform, at) : texcoord;
     }
-}
-
-glint_texture_use read_texture_info(const json &root, const json &info, std::ptrdiff_t *image)
-{
-    glint_texture_use use = {};
-    const json &texture = objects_of(root, "textures")[info["index"].get<std::size_t>()];
-    *image = image_of(root, texture);
-    use.texcoord = static_cast<int>(texcoord_of(info, Place()));
-    if (const json *transform = extension_of(info, Place(), transform_name)) {
-        read_transform(*transform, Place(), use.transform);
-        if (member(*transform, "texCoord") != nullptr) {
-            use.texcoord = static_cast<int>(texcoord_of(*transform, Place()));
+    if (texcoord > 1) {
+        refuse(place, "TEXCOORD_" + std::to_string(texcoord) + " is not read (use set 0 or 1)");
+    }
+    use.texcoord = static_cast<int>(texcoord);
+    try {
+        const json &samplers = objects_of(root, "samplers");
+        const std::ptrdiff_t sampler =
+            optional_index(texture, texture_place, "sampler", samplers.size(), "sampler");
+        if (sampler >= 0) {
+            const auto number = static_cast<std::size_t>(sampler);
+            glint_texture_use sampled = use;
+            read_sampler(samplers[number], (Place() / "samplers")[number], sampled);
+            use = sampled;
         }
-    }
-    const json *sampler = member(texture, "sampler");
-    if (sampler != nullptr) {
-        read_sampler(objects_of(root, "samplers")[sampler->get<std::size_t>()], use);
+    } catch (const refusal &fault) {
+        notes.push_back({fault.where(), fault.cause() + "; glTF's default sampler is used"});
     }
     return use;
 }
@@ -382,7 +352,12 @@ void Images::read(const Document &document, const Model &model, int largest)
     if (!uses_.empty() && !is_whole) {
         throw shortage("not enough memory for its textures (give --texture-size)");
     }
-    faults_ = std::move(work.faults);
+    for (std::size_t i = 0; i < uses_.size(); i++) {
+        const std::size_t image = uses_[i].image;
+        faults_.push_back(
+            {image_name(objects_of(document.root, "images")[image], (Place() / "images")[image]),
+             std::move(work.faults[i])});
+    }
     textures_.reset(joined);
 }
 

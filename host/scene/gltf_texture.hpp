@@ -26,11 +26,10 @@ struct TextureSlot {
 // counts.
 const std::array<TextureSlot, 19> &texture_slots();
 
-// Checks images, samplers and textures, whether used or not.
-void check_textures(const Document &document);
-
-// Checks a textureInfo object.
-void check_texture_info(const json &root, const json &info, const Place &place);
+// What is wrong with a part of the file. `where` may be empty: the part that holds the note.
+struct Note {
+    std::string where, text;
+};
 
 // An image, and how materials use it.
 struct ImageUse {
@@ -55,8 +54,8 @@ class Images
     // no limit.
     void read(const Document &document, const Model &model, int largest);
 
-    // Returns why an image could not be read; empty if it was read.
-    const std::string &fault(std::uint32_t number) const
+    // Returns why an image could not be read; no text if it was read.
+    const Note &fault(std::uint32_t number) const
     {
         return faults_[number - 1];
     }
@@ -75,13 +74,14 @@ class Images
     };
     std::map<ImageUse, std::uint32_t> numbers_;
     std::vector<ImageUse> uses_;
-    std::vector<std::string> faults_;
+    std::vector<Note> faults_;
     std::unique_ptr<glint_textures, Release> textures_;
 };
 
-// Reads a checked textureInfo; `image` stays 0. Sets *image to the index of the file's image; −1:
-// no image that glint reads.
-glint_texture_use read_texture_info(const json &root, const json &info, std::ptrdiff_t *image);
+// Reads a textureInfo at `place`. `image` becomes 1 + the index of the file's image. Refuses a
+// texture that cannot be shown. Notes faults that only its sampler has.
+glint_texture_use read_texture_info(const json &root, const json &info, const Place &place,
+                                    std::vector<Note> &notes);
 
 } // namespace glint
 

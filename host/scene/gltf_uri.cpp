@@ -143,31 +143,38 @@ Bytes decode_data_uri(const std::string &uri, const Place &place)
     return base64 ? base64_decoded(data, 0, place) : Bytes(data.begin(), data.end());
 }
 
-std::string find_uri(const std::string &folder, const std::string &uri, const Place &place)
+FoundFile find_uri(const std::string &folder, const std::string &uri)
 {
     std::string scheme = scheme_of(uri);
     if (!scheme.empty()) {
-        refuse(place, in_quotes(uri) + ": " + scheme +
-                          " is not read (put the file beside the scene, or use a data URI)");
+        return {"", scheme + " is not read (put the file beside the scene, or use a data URI)"};
     }
     std::string name = percent_decoded(uri);
     if (name.empty() || name.find('\0') != std::string::npos) {
-        refuse(place, in_quotes(uri) + " names no file");
+        return {"", "names no file"};
     }
-    // Also try a name as it is, if it only looks percent-encoded ("50%20.bin" on disk).
+    // Also try a name as it is, if it only looks percent-encoded ("50%20.bin" on disk); and as
+    // Windows writes paths.
+    std::string slashed = name;
+    std::replace(slashed.begin(), slashed.end(), '\\', '/');
     std::string found;
-    for (const std::string &candidate : {name, uri}) {
+    int trouble = 0; // of the first name
+    for (const std::string &candidate : {name, uri, slashed}) {
         found = real_path(candidate[0] == '/' ? candidate : folder + "/" + candidate);
         if (!found.empty()) {
             break;
         }
+        trouble = trouble == 0 ? errno : trouble;
+    }
+    if (found.empty()) {
+        return {"", std::string("cannot be opened: ") + std::strerror(trouble) +
+                        " (put the file beside the scene)"};
     }
     std::string prefix = folder == "/" ? folder : folder + "/";
-    if (!found.empty() && found != folder && found.compare(0, prefix.size(), prefix) != 0) {
-        refuse(place, in_quotes(uri) + " lies outside the scene's folder (put the file beside the "
-                                       "scene, or below)");
+    if (found != folder && found.compare(0, prefix.size(), prefix) != 0) {
+        return {"", "lies outside the scene's folder (put the file beside the scene, or below)"};
     }
-    return found;
+    return {found, ""};
 }
 
 } // namespace glint

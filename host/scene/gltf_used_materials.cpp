@@ -31,12 +31,13 @@ void resolve_overrides(Load &load)
         names.push_back(material_name(root, static_cast<std::ptrdiff_t>(i)));
     }
     std::vector<glint_material> materials;
+    std::vector<Note> unused; // the notes of used materials are taken later
     for (std::size_t i = 0; i < count; i++) {
-        materials.push_back(read_factors(root, static_cast<std::ptrdiff_t>(i)));
+        materials.push_back(read_factors(root, static_cast<std::ptrdiff_t>(i), unused));
         materials.back().name = names[i].empty() ? nullptr : names[i].data();
     }
     if (uses_default_material(load.model)) {
-        materials.push_back(read_factors(root, -1));
+        materials.push_back(read_factors(root, -1, unused));
     }
     glint_error error = {};
     if (glint_material_overrides_resolve(&load.overrides, materials.data(), materials.size(),
@@ -94,7 +95,7 @@ void read_used_materials(const glint_scene_options &options, Load &load)
     }
     load.images.read(load.document, load.model, options.texture_size);
     for (auto &one : load.materials) {
-        settle_material(load.document.root, one.first, load.images, one.second, load.tally);
+        settle_material(load.images, one.second, load.tally);
     }
 }
 

@@ -1,4 +1,4 @@
-// Checks material variants as part of the document, even if none is chosen. See gltf_variants.hpp.
+// Reads material variants, even if none is chosen. See gltf_variants.hpp.
 #include "scene/gltf_variants.hpp"
 
 #include "base/memory.h"
@@ -14,8 +14,8 @@ namespace
 
 const char *const name_of_extension = "KHR_materials_variants";
 
-void check_mapping(const json &root, const json &mapping, const Place &place, const Model &model,
-                   VariantMaterials &found)
+void read_mapping(const json &root, const json &mapping, const Place &place, const Model &model,
+                  VariantMaterials &found)
 {
     expect_object(mapping, place);
     const std::size_t materials = objects_of(root, "materials").size();
@@ -37,38 +37,41 @@ void check_mapping(const json &root, const json &mapping, const Place &place, co
 
 } // namespace
 
-void check_variants(const json &root, Model &model)
+void read_variants(const json &root, Model &model)
 {
-    const json *extension = extension_of(root, Place(), name_of_extension);
-    if (extension == nullptr) {
-        return;
-    }
-    const Place place = Place() / "extensions" / name_of_extension;
-    const json &variants = array_at(*extension, place, "variants");
-    for (std::size_t i = 0; i < variants.size(); i++) {
-        const Place at = (place / "variants")[i];
-        expect_object(variants[i], at);
-        const json *name = member(variants[i], "name");
-        if (name == nullptr) {
-            refuse(at / "name", "missing (KHR_materials_variants requires it)");
+    try {
+        const json *extension = extension_of(root, Place(), name_of_extension);
+        if (extension == nullptr) {
+            return;
         }
-        model.variants.push_back(text_of(*name, at / "name"));
+        const Place place = Place() / "extensions" / name_of_extension;
+        const json &variants = array_at(*extension, place, "variants");
+        for (std::size_t i = 0; i < variants.size(); i++) {
+            expect_object(variants[i], (place / "variants")[i]);
+            model.variants.push_back(name_of(variants[i]));
+        }
+    } catch (const refusal &) {
+        model.variants.clear(); // who asks for one learns that there is none
     }
 }
 
-VariantMaterials check_variant_mappings(const json &root, const json &primitive, const Place &place,
-                                        const Model &model)
+MappedPrimitive read_variant_mappings(const json &root, const json &primitive, const Place &place,
+                                      const Model &model)
 {
-    VariantMaterials found;
-    const json *extension = extension_of(primitive, place, name_of_extension);
-    if (extension != nullptr) {
-        const Place at = place / "extensions" / name_of_extension;
-        const json &mappings = array_at(*extension, at, "mappings");
-        for (std::size_t i = 0; i < mappings.size(); i++) {
-            check_mapping(root, mappings[i], (at / "mappings")[i], model, found);
+    MappedPrimitive mapped;
+    try {
+        const json *extension = extension_of(primitive, place, name_of_extension);
+        if (extension != nullptr) {
+            const Place at = place / "extensions" / name_of_extension;
+            const json &mappings = array_at(*extension, at, "mappings");
+            for (std::size_t i = 0; i < mappings.size(); i++) {
+                read_mapping(root, mappings[i], (at / "mappings")[i], model, mapped.materials);
+            }
         }
+    } catch (const refusal &fault) {
+        mapped.fault = fault.cause() + "; further materials of variants are left out";
     }
-    return found;
+    return mapped;
 }
 
 void choose_variant(const char *name, Model &model)
@@ -82,6 +85,9 @@ void choose_variant(const char *name, Model &model)
         const auto found = primitive.materials.find(chosen);
         if (found != primitive.materials.end()) {
             model.meshes[primitive.mesh].primitives[primitive.number].material = found->second;
+        }
+        if (!primitive.fault.empty()) {
+            model.note({primitive.mesh, primitive.number}, primitive.fault);
         }
     }
 }

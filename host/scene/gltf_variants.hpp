@@ -9,16 +9,16 @@
 namespace glint
 {
 
-// Reads the variants' names into model.variants. Refuses names that are missing or not texts.
-void check_variants(const json &root, Model &model);
+// Reads the variants' names into model.variants; none if the list cannot be read.
+void read_variants(const json &root, Model &model);
 
-// Returns a primitive's materials by variant. Refuses indices that refer to nothing, and a variant
-// in two mappings.
-VariantMaterials check_variant_mappings(const json &root, const json &primitive, const Place &place,
-                                        const Model &model);
+// Returns a primitive's materials by variant, without its mesh and number. Its fault says why some
+// could not be read.
+MappedPrimitive read_variant_mappings(const json &root, const json &primitive, const Place &place,
+                                      const Model &model);
 
 // Gives the primitives the materials of a variant, by name or index. A primitive without a mapping
-// for it keeps its plain material. NULL: all keep theirs. Refuses unknown names.
+// for it keeps its plain material. NULL: all keep theirs. Refuses unknown names; notes faults.
 void choose_variant(const char *name, Model &model);
 
 // Copies the variants' names and the chosen variant to a scene.

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "scene/gltf_extensions.hpp"
 #include "scene/gltf_lights.hpp"
+#include "scene/gltf_roots.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,12 +20,6 @@ namespace
 {
 
 constexpr std::size_t most_draws = std::size_t{1} << 22;
-
-std::string node_where(const Load &load, std::size_t node)
-{
-    const std::string &name = load.model.nodes[node].name;
-    return "nodes[" + std::to_string(node) + "]" + (name.empty() ? "" : " " + in_quotes(name));
-}
 
 // `rotation` is (x, y, z, w) of any length but 0. Exporters round, and a longer quaternion means
 // the same rotation.
@@ -144,12 +139,26 @@ void survey_rotation(Load &load, std::size_t index, const std::string &where)
     }
 }
 
+// Adds the notes about a node or a primitive.
+template <typename Key>
+void add_notes(const std::map<Key, std::vector<std::string>> &notes, const Key &key,
+               const std::string &where, Tally &tally)
+{
+    const auto found = notes.find(key);
+    if (found != notes.end()) {
+        for (const std::string &note : found->second) {
+            tally.add(note, where);
+        }
+    }
+}
+
 void survey_node(Load &load, std::size_t index)
 {
     std::string where = node_where(load, index);
     survey_rotation(load, index, where);
     survey_extensions(objects_of(load.document.root, "nodes")[index], Holder::node, where,
                       load.tally);
+    add_notes(load.model.node_notes, index, where, load.tally);
 }
 
 void survey_primitive(Load &load, const Primitive &primitive)
@@ -158,6 +167,7 @@ void survey_primitive(Load &load, const Primitive &primitive)
         objects_of(load.document.root, "meshes")[primitive.mesh]["primitives"][primitive.number];
     std::string where = primitive.place().text();
     survey_extensions(source, Holder::primitive, where, load.tally);
+    add_notes(load.model.notes, {primitive.mesh, primitive.number}, where, load.tally);
 }
 
 void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_scene &scene)
@@ -168,13 +178,12 @@ void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_s
     const int skin = load.model.nodes[node].skin;
     auto mesh = static_cast<std::size_t>(load.model.nodes[node].mesh);
     const std::size_t first = load.primitives.first[mesh];
-    bool hides_any = false;
     for (std::size_t i = first; i < load.primitives.first[mesh + 1]; i++) {
         const Primitive &primitive = load.primitives.all[i];
         const Shape *shape = shapes.empty() ? nullptr : &shapes[i - first];
         const Stand stand = load.poses.stand_of(shape, skin, to_world);
         if (stand.is_hidden) {
-            hides_any = true;
+            load.hides_any = true;
             continue;
         }
         if (primitive.mode < 4) {
@@ -195,9 +204,6 @@ void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_s
         if (instances.empty()) {
             load.draws.push_back({&primitive, static_cast<int>(node), stand.to_world, shape});
         }
-    }
-    if (hides_any) {
-        load.tally.add("a scale of 0 hides the mesh", node_where(load, node));
     }
 }
 
@@ -264,39 +270,7 @@ void add_camera(Load &load, std::size_t node, const glint_mat4 &to_world, Camera
     cameras.add(camera, name.empty() ? source.name : name);
 }
 
-std::vector<std::string> names_of(const std::vector<tinygltf::Scene> &scenes)
-{
-    std::vector<std::string> names;
-    names.reserve(scenes.size());
-    for (const tinygltf::Scene &scene : scenes) {
-        names.push_back(scene.name);
-    }
-    return names;
-}
-
-std::vector<int> find_roots(Load &load, const char *name)
-{
-    const Model &model = load.model;
-    if (name != nullptr || !model.scenes.empty()) {
-        std::size_t scene = name != nullptr ? find_named(names_of(model.scenes), name, "scene")
-                            : model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene)
-                                                      : 0;
-        return model.scenes[scene].nodes;
-    }
-    // glTF calls such a file a library. A user who renders it wants to see its contents.
-    std::vector<int> roots;
-    for (std::size_t i = 0; i < model.nodes.size(); i++) {
-        if (load.model.parents[i] < 0) {
-            roots.push_back(static_cast<int>(i));
-        }
-    }
-    if (!roots.empty()) {
-        load.tally.add("missing, so that every root node is shown", "scenes");
-    }
-    return roots;
-}
-
-// Adds the roots and all nodes below them to the visits.
+// Adds the roots and all nodes below them to the visits, except nodes that are visited already.
 void visit_trees(Load &load, const std::vector<int> &roots, bool is_shown)
 {
     struct Step {
@@ -311,13 +285,21 @@ void visit_trees(Load &load, const std::vector<int> &roots, bool is_shown)
         const Step step = stack.back();
         stack.pop_back();
         auto index = static_cast<std::size_t>(step.node);
+        if (load.visit_of[index] >= 0) {
+            continue;
+        }
         const tinygltf::Node &node = load.model.nodes[index];
         const bool moves =
             ever_moves(moves_of(load, index)) ||
             (step.parent >= 0 && load.visits[static_cast<std::size_t>(step.parent)].moves);
         const auto here = static_cast<std::ptrdiff_t>(load.visits.size());
         load.visit_of[index] = here;
-        load.visits.push_back({index, step.parent, is_shown, moves, false});
+        const bool is_below_shown =
+            step.parent < 0 ? is_shown
+                            : load.visits[static_cast<std::size_t>(step.parent)].is_shown;
+        load.visits.push_back({index, step.parent,
+                               is_below_shown && load.model.hidden_nodes.count(index) == 0, moves,
+                               false});
         for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) {
             stack.push_back({*it, here});
         }
@@ -331,7 +313,8 @@ void visit_joints(Load &load)
     std::vector<char> is_known(load.skins.size(), 0);
     for (std::size_t i = 0; i < shown; i++) {
         const tinygltf::Node &node = load.model.nodes[load.visits[i].node];
-        if (node.mesh < 0 || node.skin < 0 || is_known[static_cast<std::size_t>(node.skin)] != 0) {
+        if (!load.visits[i].is_shown || node.mesh < 0 || node.skin < 0 ||
+            is_known[static_cast<std::size_t>(node.skin)] != 0) {
             continue;
         }
         is_known[static_cast<std::size_t>(node.skin)] = 1;
@@ -453,6 +436,7 @@ glint_mat4 place_node(const Load &load, std::size_t visit, double time,
 void walk_scene(Load &load, double time, glint_scene &scene)
 {
     load.draws.clear();
+    load.hides_any = false;
     std::vector<glint_mat4> placed;
     placed.reserve(load.visits.size());
     Cameras cameras;
@@ -461,7 +445,10 @@ void walk_scene(Load &load, double time, glint_scene &scene)
     }
     load.poses.begin(pose_source(load), time, placed);
     allocate_lights(load, scene);
-    for (std::size_t i = 0; i < load.visits.size() && load.visits[i].is_shown; i++) {
+    for (std::size_t i = 0; i < load.visits.size(); i++) {
+        if (!load.visits[i].is_shown) {
+            continue;
+        }
         const std::size_t index = load.visits[i].node;
         const tinygltf::Node &node = load.model.nodes[index];
         survey_node(load, index);

@@ -16,11 +16,11 @@
 namespace glint
 {
 
-// A node that the chosen scene shows, or a node of a tree that only joints of its skins need.
+// A node of the chosen scene, or a node of a tree that only joints of its skins need.
 struct Visit {
     std::size_t node;
     std::ptrdiff_t parent; // index of the parent's Visit; −1: a root
-    bool is_shown;         // false: only joints need the node
+    bool is_shown;         // false: hidden, or only joints need the node
     bool moves;            // over time, by itself or with an ancestor
     bool deforms;          // over time: its mesh is morphed, or its skin's joints move
 };
@@ -47,6 +47,7 @@ struct Load {
     std::vector<std::ptrdiff_t> visit_of; // [node]; −1: not visited
     Poses poses;                          // poses of the draws
     std::vector<Draw> draws;
+    bool hides_any = false; // a scale of 0 hides some mesh at the walk's time
     // True if some shown triangles, cameras or lights move over time.
     bool moves_triangles = false, moves_cameras = false, moves_lights = false;
     Tally tally;

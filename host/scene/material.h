@@ -12,6 +12,10 @@
 extern "C" {
 #endif
 
+// Stands for an infinite index of refraction: at right angles all but 4e-5 of the light is
+// reflected. In floats the formulas still tell 1 from the reflectance, and squares do not overflow.
+#define GLINT_IOR_INFINITE 1e5F
+
 // What the alpha of the base colour means for the surface.
 typedef enum glint_alpha_mode {
     GLINT_ALPHA_OPAQUE, // no meaning: the surface is fully there
@@ -24,12 +28,11 @@ typedef struct glint_material {
     char *name; // may be NULL; owned
     int index;  // in the file; for glTF's default material, the number of materials in the file
     float base_color[3];
-    float metallic;     // [0, 1]
-    float roughness;    // [0, 1]
-    float emission[3];  // emissiveFactor × emissiveStrength, radiance ≥ 0
-    float transmission; // KHR_materials_transmission, [0, 1]
-    // KHR_materials_ior, ≥ 1; default 1.5. glint refuses 0 ("infinite, F = 1").
-    float ior;
+    float metallic;             // [0, 1]
+    float roughness;            // [0, 1]
+    float emission[3];          // emissiveFactor × emissiveStrength, radiance ≥ 0
+    float transmission;         // KHR_materials_transmission, [0, 1]
+    float ior;                  // KHR_materials_ior, from 1 to GLINT_IOR_INFINITE; default 1.5
     float thickness;            // KHR_materials_volume: > 0 makes the mesh a solid's boundary
     float attenuation_distance; // metres; INFINITY if the file gives none
     float attenuation_color[3]; // colour of white light after attenuation_distance

@@ -337,7 +337,12 @@ for light in 'warm lamp (node 7): point, (26, 16.12, 7.8) cd, range 6 m' \
 done
 clean
 sed 's/"point"/"area"/' in/lights.gltf >in/bad_lights.gltf
-refuses 3 'lights[0].type: "area" is none' render in/bad_lights.gltf -o out/a.exr
+run render in/bad_lights.gltf --size 64x36 -o out/a.exr
+check "a light of an unknown type is left out" test "$status" -eq 0
+check "and named" grep -qF 'lights[0]: type "area" is none' stderr
+run render in/bad_lights.gltf --size 64x36 -o out/b.exr --strict
+check "--strict refuses it" test "$status" -eq 3
+clean
 refuses 2 "--lights" render in/lights.gltf -o out/a.exr --lights some
 
 # ---- relight -------------------------------------------------------------------------------------
