@@ -37,16 +37,29 @@ static int compare_ranks(const void *left, const void *right)
     return a->component < b->component ? -1 : a->component > b->component;
 }
 
-// Finds the solid around a hollow. Of the solids of its material whose bounds hold the hollow's
-// bounds, this is the one of least volume. NULL: none, or the component winds like a solid.
-static ranked *solid_around(const glint_topology *topology, const ranked *hollow, ranked *all,
-                            size_t count)
+// The most pairs of hollows and solids to compare. With more, no hollow is looked for.
+#define PAIRS_MAX ((size_t)64 * 1024 * 1024)
+
+// True if the faces wind clockwise seen from outside, by more than rounding explains.
+static bool is_turned(const glint_component *component)
 {
+    return component->volume < -component->volume_error;
+}
+
+// Finds the solid around a hollow. Of the solids of its material, or of one like it, whose bounds
+// hold the hollow's bounds, this is the one of least volume. NULL: none, or the component winds
+// like a solid.
+static ranked *solid_around(const glint_scene *scene, const glint_topology *topology,
+                            const ranked *hollow, ranked *all, size_t count)
+{
+    const glint_material *materials = scene->materials;
     const glint_component *inner = &topology->components[hollow->component];
     ranked *around = NULL;
-    for (size_t i = 0; inner->volume < 0 && i < count; i++) {
+    for (size_t i = 0; is_turned(inner) && i < count; i++) {
         const glint_component *outer = &topology->components[all[i].component];
-        bool holds = outer->volume > 0 && all[i].material == hollow->material;
+        bool holds =
+            outer->volume > 0 && glint_material_media_are_alike(&materials[all[i].material],
+                                                                &materials[hollow->material]);
         for (int k = 0; k < 3; k++) {
             holds = holds && outer->low[k] <= inner->low[k] && outer->high[k] >= inner->high[k];
         }
@@ -58,12 +71,14 @@ static ranked *solid_around(const glint_topology *topology, const ranked *hollow
     return around;
 }
 
-// Fills `all` with the solids, and assigns hollows to the solids around them.
-static size_t list_solids(const glint_scene *scene, const glint_topology *topology, ranked *all)
+// Fills `all` with the solids, and assigns hollows to the solids around them. Counts those of
+// several materials.
+static size_t list_solids(const glint_scene *scene, const glint_topology *topology, ranked *all,
+                          glint_solids *solids)
 {
     size_t listed = 0;
     for (size_t i = 0; i < topology->component_count; i++) {
-        const uint32_t number = scene->instances[topology->components[i].instance].material;
+        const uint32_t number = topology->components[i].material;
         const glint_material *m = &scene->materials[number];
         if (glint_material_lobes(m).solid) {
             all[listed++] = (ranked){.priority = (double)m->priority,
@@ -73,10 +88,16 @@ static size_t list_solids(const glint_scene *scene, const glint_topology *topolo
                                      .material = number};
         }
     }
+    size_t turned = 0;
     for (size_t i = 0; i < listed; i++) {
-        ranked *around = solid_around(topology, &all[i], all, listed);
+        solids->mixed_count += topology->components[all[i].component].has_materials;
+        turned += is_turned(&topology->components[all[i].component]);
+    }
+    for (size_t i = 0; turned * listed <= PAIRS_MAX && i < listed; i++) {
+        ranked *around = solid_around(scene, topology, &all[i], all, listed);
         if (around != NULL) {
             all[i].belongs_to = around->component;
+            solids->mixed_count += all[i].material != around->material;
             around->volume -= all[i].volume;
         }
     }
@@ -145,7 +166,7 @@ static void settle_contacts(const glint_scene *scene, const glint_topology *topo
         const glint_material *of[2];
         for (int k = 0; k < 2; k++) {
             contact->instances[k] = topology->components[contact->components[k]].instance;
-            of[k] = &scene->materials[scene->instances[contact->instances[k]].material];
+            of[k] = &scene->materials[topology->components[contact->components[k]].material];
         }
         contact->there =
             medium_of[contact->components[1]] > medium_of[contact->components[0]] ? 1 : 0;
@@ -165,7 +186,7 @@ glint_status glint_solids_find(const glint_scene *scene, const glint_topology *t
     bool done = all != NULL && medium_of != NULL && solids->material_of != NULL &&
                 solids->of_triangle != NULL;
     if (done) {
-        const size_t listed = list_solids(scene, topology, all);
+        const size_t listed = list_solids(scene, topology, all, solids);
         const size_t count = rank_solids(all, listed);
         rank_media(all, count, solids, medium_of);
         for (size_t i = count; i < listed; i++) {

@@ -36,6 +36,7 @@ typedef struct glint_solids {
     glint_contact *contacts; // sorted by their components
     bool touch_others;       // a surface that bounds no solid coincides with a solid's surface
     size_t component_count;  // components that bound solids, hollows included
+    size_t mixed_count;      // components at whose solids' surfaces there are several materials
     size_t medium_count;     // media by rank: the first yields to all others
     uint32_t *material_of;   // [medium]
     glint_solid_record *of_triangle; // [triangle of the scene]
