@@ -152,6 +152,9 @@ static void assert_same_solids(const glint_scene *scene, const glint_scene *piec
     assert_same_order(&whole, &parts, origin, pieces->triangle_count);
     assert_int_equal(parts.solids.component_count, whole.solids.component_count);
     assert_int_equal(parts.solids.contact_count, whole.solids.contact_count);
+    assert_int_equal(parts.solids.faults.open.count, whole.solids.faults.open.count);
+    assert_int_equal(parts.solids.faults.inside_out.count, whole.solids.faults.inside_out.count);
+    assert_int_equal(parts.solids.faults.mixed.count, 0);
     free(counterpart);
     let_go(&whole);
     let_go(&parts);

@@ -316,7 +316,7 @@ static void decide_overlaps(const glint_plan_inputs *in, bool heeded, glint_plan
     const bool solid = solids != NULL && plan->features[GLINT_FEATURE_SOLID].compiled;
     const size_t contacts = solids != NULL ? solids->contact_count : 0;
     if (solids != NULL) {
-        glint_solids_describe_guesses(in->scene, solids, plan->guesses, sizeof plan->guesses);
+        glint_solids_remark(in->scene, in->topology, solids, &plan->remarks);
     }
     if (!solid || !heeded) {
         decide(plan, GLINT_FEATURE_OVERLAPS, false, "%s",

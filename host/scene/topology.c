@@ -72,6 +72,32 @@ static bool list_rest(finding *f)
     return f->count > 0;
 }
 
+// Stores the boundaries of the listed triangles. Returns false if memory is short.
+static bool store_boundaries(finding *f)
+{
+    glint_topology *topology = f->topology;
+    for (int pass = 0; pass < 2; pass++) {
+        size_t count = 0;
+        for (uint32_t corner = 0; corner < 3 * f->count; corner++) {
+            if (f->weld.twin[corner] == GLINT_UNPAIRED) {
+                if (pass > 0) {
+                    topology->open_corners[count] =
+                        3 * glint_triangle_at(&f->weld, corner) + corner % 3;
+                }
+                count++;
+            }
+        }
+        if (pass == 0) {
+            topology->open_corners = glint_allocate(count, sizeof *topology->open_corners);
+            topology->open_corner_count = count;
+        }
+        if (topology->open_corners == NULL) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool find_kinds(finding *f)
 {
     const glint_scene *scene = f->scene;
@@ -99,7 +125,7 @@ static bool find_across_instances(finding *f)
     if (!find_kinds(f) || (f->has_instances && !find_listed(f, false, true))) {
         return false;
     }
-    return !list_rest(f) || find_listed(f, true, false);
+    return !list_rest(f) || (find_listed(f, true, false) && store_boundaries(f));
 }
 
 // Counts in another material of a component. The highest priority wins, then the first in the file.
@@ -199,5 +225,6 @@ void glint_topology_free(glint_topology *topology)
 {
     free(topology->components);
     free(topology->component_of);
+    free(topology->open_corners);
     *topology = (glint_topology){0};
 }

@@ -42,6 +42,9 @@ typedef struct glint_topology {
     glint_component *components;
     size_t boundary_edges;  // sum over the components
     uint32_t *component_of; // [triangle of the scene]; UINT32_MAX: no component
+    // The boundaries of open solids: the corners where their edges start, 3 × triangle + corner.
+    size_t open_corner_count;
+    uint32_t *open_corners;
 } glint_topology;
 
 // Errors: GLINT_OUT_OF_MEMORY.
