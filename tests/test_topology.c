@@ -308,17 +308,84 @@ static void components_keep_apart_by_instance_and_by_position(void **state)
     free_all(&builder, &topology);
 }
 
-static void boxes_that_touch_in_a_vertex_are_one_body_and_not_convex(void **state)
+// Boxes in one mesh that share a vertex, an edge or a face are bodies of their own.
+static void boxes_that_touch_are_apart(void **state)
 {
     (void)state;
+    static const glint_vec3 centers[] = {
+        {-0.25, -0.25, -0.25}, {-0.25, -0.25, 0.25}, {-0.25, 0.25, 0.25}};
+    for (int i = 0; i < 3; i++) {
+        mesh_builder builder = {0};
+        begin_instance(&builder, 0);
+        add_box(&builder, (glint_vec3){0.25, 0.25, 0.25}, 0.25, 0);
+        add_box(&builder, centers[i], 0.25, 0);
+        glint_topology topology = find(&builder);
+        assert_int_equal(topology.component_count, 2);
+        for (int k = 0; k < 2; k++) {
+            assert_true(topology.components[k].closed);
+            assert_true(topology.components[k].simple);
+            assert_true(topology.components[k].convex);
+            assert_true(fabs(topology.components[k].volume - 0.125) < 1e-9);
+        }
+        free_all(&builder, &topology);
+    }
+}
+
+// Eight cubes in a ring. Their common faces are left out, except between the last and the first.
+static void a_ring_that_meets_itself_is_not_simple(void **state)
+{
+    (void)state;
+    static const int cells[8][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+    static const int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                    {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     mesh_builder builder = {0};
     begin_instance(&builder, 0);
-    add_box(&builder, (glint_vec3){0.25, 0.25, 0.25}, 0.25, 0);
-    add_box(&builder, (glint_vec3){-0.25, -0.25, -0.25}, 0.25, 0);
+    for (int c = 0; c < 8; c++) {
+        glint_vec3 v[8];
+        for (int i = 0; i < 8; i++) {
+            v[i] = (glint_vec3){0.25 * (cells[c][0] + (i & 1)), 0.25 * (cells[c][1] + (i >> 1 & 1)),
+                                i & 4 ? 0.25 : 0};
+        }
+        for (int f = 0; f < 6; f++) {
+            bool is_inner = false;
+            for (int next = c - 1; next <= c + 1; next += 2) {
+                const int step = (f & 1) * 2 - 1;
+                is_inner = is_inner || (next >= 0 && next < 8 && f < 4 &&
+                                        cells[next][f / 2] == cells[c][f / 2] + step &&
+                                        cells[next][1 - f / 2] == cells[c][1 - f / 2]);
+            }
+            if (!is_inner) {
+                add_quad(&builder, v, faces[f]);
+            }
+        }
+    }
     glint_topology topology = find(&builder);
     assert_int_equal(topology.component_count, 1);
     assert_true(topology.components[0].closed);
+    assert_false(topology.components[0].simple);
     assert_false(topology.components[0].convex);
+    assert_true(fabs(topology.components[0].volume - 8.0 / 64) < 1e-9);
+    free_all(&builder, &topology);
+}
+
+// Very many triangles at one edge, as a hostile file may have.
+static void a_fan_at_one_edge_takes_little_time(void **state)
+{
+    (void)state;
+    enum { BLADES = 200000 };
+    mesh_builder builder = {0};
+    begin_instance(&builder, 0);
+    const glint_vec3 low = {0, -1, 0}, high = {0, 1, 0};
+    for (int i = 0; i < BLADES; i++) {
+        const double angle = 2 * GLINT_PI * ((double)i * 0.618 - floor((double)i * 0.618));
+        const glint_vec3 tip = {cos(angle), 0, sin(angle)};
+        add(&builder, i % 2 ? low : high, i % 2 ? high : low, tip);
+    }
+    const clock_t begin = clock();
+    glint_topology topology = find(&builder);
+    assert_true((double)(clock() - begin) / CLOCKS_PER_SEC < 20);
+    assert_int_equal(topology.component_count, 1); // open, with common vertices
+    assert_false(topology.components[0].closed);
     free_all(&builder, &topology);
 }
 
@@ -433,7 +500,9 @@ int main(void)
         cmocka_unit_test(a_pentagrams_bipyramid_is_not_convex),
         cmocka_unit_test(a_flat_body_without_inside_is_not_convex),
         cmocka_unit_test(components_keep_apart_by_instance_and_by_position),
-        cmocka_unit_test(boxes_that_touch_in_a_vertex_are_one_body_and_not_convex),
+        cmocka_unit_test(boxes_that_touch_are_apart),
+        cmocka_unit_test(a_ring_that_meets_itself_is_not_simple),
+        cmocka_unit_test(a_fan_at_one_edge_takes_little_time),
         cmocka_unit_test(minus_zero_welds_with_zero),
         cmocka_unit_test(an_empty_scene_has_no_components),
         cmocka_unit_test(convex_solids_apart_do_not_nest),

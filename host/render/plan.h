@@ -48,8 +48,7 @@ typedef struct glint_plan {
     bool depth_is_exact; // `depth` is the depth that sight proved: a larger one changes nothing
     int stack_capacity;  // waiting branches per pixel; 0 without SPLIT
     char stack_reason[120];
-    // Solids that touch or overlap although the file does not say which one is present.
-    char guesses[GLINT_CONTACT_TEXT];
+    glint_solids_remarks remarks; // what to warn about
     // Bounding boxes of solids, in stored coordinates. The last box holds all remaining solids.
     int box_count;
     float boxes[GLINT_PLAN_BOXES][2][3];

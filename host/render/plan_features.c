@@ -308,14 +308,15 @@ static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
     }
 }
 
-// Decides OVERLAPS: solids touch or overlap, or may do so later, or have priorities and nest.
+// Decides OVERLAPS: solids touch or overlap, or may do so later, or have priorities and nest. It is
+// also what knows solids of several materials.
 static void decide_overlaps(const glint_plan_inputs *in, bool heeded, glint_plan *plan)
 {
     const glint_solids *solids = in->solids;
     const bool solid = solids != NULL && plan->features[GLINT_FEATURE_SOLID].compiled;
     const size_t contacts = solids != NULL ? solids->contact_count : 0;
     if (solids != NULL) {
-        glint_solids_describe_guesses(in->scene, solids, plan->guesses, sizeof plan->guesses);
+        glint_solids_remark(in->scene, in->topology, solids, &plan->remarks);
     }
     if (!solid || !heeded) {
         decide(plan, GLINT_FEATURE_OVERLAPS, false, "%s",
@@ -325,6 +326,8 @@ static void decide_overlaps(const glint_plan_inputs *in, bool heeded, glint_plan
                contacts == 1 ? "" : "s");
     } else if (solids->touch_others) {
         decide(plan, GLINT_FEATURE_OVERLAPS, true, "other surfaces touch solids");
+    } else if (solids->mixed_count > 0) {
+        decide(plan, GLINT_FEATURE_OVERLAPS, true, "surfaces of several materials bound one solid");
     } else if (in->scene->moves && solids->component_count > 1) {
         decide(plan, GLINT_FEATURE_OVERLAPS, true, "solids may come to touch: the scene moves");
     } else {

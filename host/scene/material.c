@@ -45,6 +45,16 @@ static bool has_texture(const glint_material *m, glint_texture_slot slot)
     return m->textures[slot].image != 0;
 }
 
+bool glint_material_media_are_alike(const glint_material *a, const glint_material *b)
+{
+    bool alike = a->ior == b->ior && a->dispersion == b->dispersion && a->priority == b->priority &&
+                 a->attenuation_distance == b->attenuation_distance;
+    for (int k = 0; k < 3; k++) {
+        alike = alike && a->attenuation_color[k] == b->attenuation_color[k];
+    }
+    return alike;
+}
+
 const glint_texture_use *glint_material_normal_texture(const glint_material *m)
 {
     return &m->textures[has_texture(m, GLINT_TEXTURE_NORMAL) ? GLINT_TEXTURE_NORMAL

@@ -118,6 +118,9 @@ typedef struct glint_lobes {
 
 glint_lobes glint_material_lobes(const glint_material *material);
 
+// True if light travels alike in solids of both materials, and neither has priority over the other.
+bool glint_material_media_are_alike(const glint_material *a, const glint_material *b);
+
 // Returns the normal texture, or else the clear coat's. Its image is 0 if there is neither.
 const glint_texture_use *glint_material_normal_texture(const glint_material *material);
 

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "scene/contacts.h"
+#include "scene/openings.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -37,16 +38,29 @@ static int compare_ranks(const void *left, const void *right)
     return a->component < b->component ? -1 : a->component > b->component;
 }
 
-// Finds the solid around a hollow. Of the solids of its material whose bounds hold the hollow's
-// bounds, this is the one of least volume. NULL: none, or the component winds like a solid.
-static ranked *solid_around(const glint_topology *topology, const ranked *hollow, ranked *all,
-                            size_t count)
+// The most pairs of hollows and solids to compare. With more, no hollow is looked for.
+#define PAIRS_MAX ((size_t)64 * 1024 * 1024)
+
+// True if the faces wind clockwise seen from outside, by more than rounding explains.
+static bool is_turned(const glint_component *component)
 {
+    return component->volume < -component->volume_error;
+}
+
+// Finds the solid around a hollow. Of the solids of its material, or of one like it, whose bounds
+// hold the hollow's bounds, this is the one of least volume. NULL: none, or the component winds
+// like a solid.
+static ranked *solid_around(const glint_scene *scene, const glint_topology *topology,
+                            const ranked *hollow, ranked *all, size_t count)
+{
+    const glint_material *materials = scene->materials;
     const glint_component *inner = &topology->components[hollow->component];
     ranked *around = NULL;
-    for (size_t i = 0; inner->volume < 0 && i < count; i++) {
+    for (size_t i = 0; is_turned(inner) && i < count; i++) {
         const glint_component *outer = &topology->components[all[i].component];
-        bool holds = outer->volume > 0 && all[i].material == hollow->material;
+        bool holds =
+            outer->volume > 0 && glint_material_media_are_alike(&materials[all[i].material],
+                                                                &materials[hollow->material]);
         for (int k = 0; k < 3; k++) {
             holds = holds && outer->low[k] <= inner->low[k] && outer->high[k] >= inner->high[k];
         }
@@ -58,12 +72,14 @@ static ranked *solid_around(const glint_topology *topology, const ranked *hollow
     return around;
 }
 
-// Fills `all` with the solids, and assigns hollows to the solids around them.
-static size_t list_solids(const glint_scene *scene, const glint_topology *topology, ranked *all)
+// Fills `all` with the solids, and assigns hollows to the solids around them. Counts those of
+// several materials.
+static size_t list_solids(const glint_scene *scene, const glint_topology *topology, ranked *all,
+                          glint_solids *solids)
 {
     size_t listed = 0;
     for (size_t i = 0; i < topology->component_count; i++) {
-        const uint32_t number = scene->instances[topology->components[i].instance].material;
+        const uint32_t number = topology->components[i].material;
         const glint_material *m = &scene->materials[number];
         if (glint_material_lobes(m).solid) {
             all[listed++] = (ranked){.priority = (double)m->priority,
@@ -73,10 +89,16 @@ static size_t list_solids(const glint_scene *scene, const glint_topology *topolo
                                      .material = number};
         }
     }
+    size_t turned = 0;
     for (size_t i = 0; i < listed; i++) {
-        ranked *around = solid_around(topology, &all[i], all, listed);
+        solids->mixed_count += topology->components[all[i].component].has_materials;
+        turned += is_turned(&topology->components[all[i].component]);
+    }
+    for (size_t i = 0; turned * listed <= PAIRS_MAX && i < listed; i++) {
+        ranked *around = solid_around(scene, topology, &all[i], all, listed);
         if (around != NULL) {
             all[i].belongs_to = around->component;
+            solids->mixed_count += all[i].material != around->material;
             around->volume -= all[i].volume;
         }
     }
@@ -126,6 +148,40 @@ static void rank_media(const ranked *all, size_t count, glint_solids *solids, ui
     }
 }
 
+static void count_fault(bool has_it, size_t component, glint_fault *fault)
+{
+    if (has_it) {
+        fault->first = fault->count == 0 ? (uint32_t)component : fault->first;
+        fault->count++;
+    }
+}
+
+// Finds faults of the `listed` solids. Returns false if memory is short.
+static bool find_faults(const glint_scene *scene, const glint_topology *topology, const ranked *all,
+                        size_t listed, glint_solid_faults *faults)
+{
+    bool *is_open = glint_allocate(topology->component_count, sizeof *is_open);
+    bool *is_inside_out = glint_allocate(topology->component_count, sizeof *is_inside_out);
+    bool done = is_open != NULL && is_inside_out != NULL;
+    bool any_open = false;
+    for (size_t i = 0; done && i < listed; i++) {
+        const glint_component *c = &topology->components[all[i].component];
+        is_open[all[i].component] = !c->closed;
+        is_inside_out[all[i].component] =
+            c->closed && is_turned(c) && all[i].belongs_to == all[i].component;
+        any_open = any_open || !c->closed;
+    }
+    done = done && (!any_open || glint_openings_judge(scene, topology, is_open));
+    for (size_t i = 0; done && i < topology->component_count; i++) {
+        count_fault(is_inside_out[i], i, &faults->inside_out);
+        count_fault(is_open[i], i, &faults->open);
+        count_fault(topology->components[i].has_media, i, &faults->mixed);
+    }
+    free(is_open);
+    free(is_inside_out);
+    return done;
+}
+
 static void record_triangles(const glint_scene *scene, const glint_topology *topology,
                              const uint32_t *medium_of, glint_solids *solids)
 {
@@ -145,7 +201,7 @@ static void settle_contacts(const glint_scene *scene, const glint_topology *topo
         const glint_material *of[2];
         for (int k = 0; k < 2; k++) {
             contact->instances[k] = topology->components[contact->components[k]].instance;
-            of[k] = &scene->materials[scene->instances[contact->instances[k]].material];
+            of[k] = &scene->materials[topology->components[contact->components[k]].material];
         }
         contact->there =
             medium_of[contact->components[1]] > medium_of[contact->components[0]] ? 1 : 0;
@@ -165,7 +221,8 @@ glint_status glint_solids_find(const glint_scene *scene, const glint_topology *t
     bool done = all != NULL && medium_of != NULL && solids->material_of != NULL &&
                 solids->of_triangle != NULL;
     if (done) {
-        const size_t listed = list_solids(scene, topology, all);
+        const size_t listed = list_solids(scene, topology, all, solids);
+        done = find_faults(scene, topology, all, listed, &solids->faults);
         const size_t count = rank_solids(all, listed);
         rank_media(all, count, solids, medium_of);
         for (size_t i = count; i < listed; i++) {
@@ -173,7 +230,7 @@ glint_status glint_solids_find(const glint_scene *scene, const glint_topology *t
         }
         solids->component_count = listed;
         record_triangles(scene, topology, medium_of, solids);
-        done = glint_contacts_find(scene, topology, solids);
+        done = done && glint_contacts_find(scene, topology, solids);
         settle_contacts(scene, topology, medium_of, solids);
     }
     free(all);
@@ -230,8 +287,7 @@ void glint_contact_describe(const glint_scene *scene, const glint_contact *conta
     }
 }
 
-void glint_solids_describe_guesses(const glint_scene *scene, const glint_solids *solids, char *text,
-                                   size_t capacity)
+static void remark_guesses(const glint_scene *scene, const glint_solids *solids, char *text)
 {
     const glint_contact *first = NULL;
     size_t guesses = 0;
@@ -239,25 +295,71 @@ void glint_solids_describe_guesses(const glint_scene *scene, const glint_solids 
         guesses += solids->contacts[i].is_guess;
         first = first == NULL && solids->contacts[i].is_guess ? &solids->contacts[i] : first;
     }
-    text[0] = '\0';
     if (first != NULL) {
-        char pair[GLINT_CONTACT_TEXT];
+        char pair[GLINT_CONTACT_TEXT - 40];
         char more[40] = "";
         glint_contact_describe(scene, first, pair, sizeof pair);
         if (guesses > 1) {
             snprintf(more, sizeof more, ", and %zu more pair%s", guesses - 1,
                      guesses == 2 ? "" : "s");
         }
-        snprintf(text, capacity, "%s%s", pair, more);
+        snprintf(text, GLINT_CONTACT_TEXT, "%s%s", pair, more);
     }
 }
 
-void glint_solids_warn(const glint_scene *scene, const char *guesses, glint_warnings *warnings)
+// Writes such as ""ball" (node 1, glass) and 2 more solids are".
+static void remark_fault(const glint_scene *scene, const glint_topology *topology,
+                         const glint_fault *fault, char *text)
 {
-    if (guesses[0] != '\0') {
+    char first[160];
+    if (fault->count > 0) {
+        name_solid(scene, topology->components[fault->first].instance, first, sizeof first);
+    }
+    if (fault->count == 1) {
+        snprintf(text, GLINT_CONTACT_TEXT, "%s is", first);
+    } else if (fault->count > 1) {
+        snprintf(text, GLINT_CONTACT_TEXT, "%s and %zu more solid%s are", first, fault->count - 1,
+                 fault->count == 2 ? "" : "s");
+    }
+}
+
+void glint_solids_remark(const glint_scene *scene, const glint_topology *topology,
+                         const glint_solids *solids, glint_solids_remarks *remarks)
+{
+    *remarks = (glint_solids_remarks){{0}, {0}, {0}, {0}};
+    remark_guesses(scene, solids, remarks->guesses);
+    remark_fault(scene, topology, &solids->faults.inside_out, remarks->inside_out);
+    remark_fault(scene, topology, &solids->faults.open, remarks->open);
+    remark_fault(scene, topology, &solids->faults.mixed, remarks->mixed);
+}
+
+void glint_solids_warn(const glint_scene *scene, const glint_solids_remarks *remarks,
+                       glint_warnings *warnings)
+{
+    const char *path = scene->path != NULL ? scene->path : "the scene";
+    if (remarks->guesses[0] != '\0') {
         glint_warn(warnings,
                    "%s: %s: where both are, the one of less volume is taken to be there (say which "
                    "by extras {\"glint\": {\"priority\": 1}} of its material)",
-                   scene->path != NULL ? scene->path : "the scene", guesses);
+                   path, remarks->guesses);
+    }
+    if (remarks->inside_out[0] != '\0') {
+        glint_warn(warnings,
+                   "%s: %s inside out: light refracts as if glass were all around, and air inside "
+                   "(flip the faces)",
+                   path, remarks->inside_out);
+    }
+    if (remarks->open[0] != '\0') {
+        glint_warn(warnings,
+                   "%s: %s open: light that enters and passes the opening stays inside (close the "
+                   "mesh, or set the thickness to 0 for a thin wall)",
+                   path, remarks->open);
+    }
+    if (remarks->mixed[0] != '\0') {
+        glint_warn(warnings,
+                   "%s: %s bounded by materials in which light travels differently: the one of the "
+                   "highest priority counts, else the first (give them one index and one "
+                   "attenuation)",
+                   path, remarks->mixed);
     }
 }

@@ -30,14 +30,29 @@ typedef struct glint_contact {
     bool is_guess;          // the volumes decided: the materials differ, their priorities do not
 } glint_contact;
 
+// Solids of one kind of fault.
+typedef struct glint_fault {
+    size_t count;
+    uint32_t first; // component
+} glint_fault;
+
+// Faults of solids that change the picture, though a file may have them.
+typedef struct glint_solid_faults {
+    glint_fault inside_out; // closed, with faces that wind clockwise seen from outside
+    glint_fault open;       // light may leave it without meeting its surface
+    glint_fault mixed;      // its surfaces disagree about the medium inside
+} glint_solid_faults;
+
 // Zero is valid: no solids.
 typedef struct glint_solids {
     size_t contact_count;
     glint_contact *contacts; // sorted by their components
     bool touch_others;       // a surface that bounds no solid coincides with a solid's surface
     size_t component_count;  // components that bound solids, hollows included
-    size_t medium_count;     // media by rank: the first yields to all others
-    uint32_t *material_of;   // [medium]
+    size_t mixed_count;      // components at whose solids' surfaces there are several materials
+    glint_solid_faults faults;
+    size_t medium_count;             // media by rank: the first yields to all others
+    uint32_t *material_of;           // [medium]
     glint_solid_record *of_triangle; // [triangle of the scene]
 } glint_solids;
 
@@ -55,13 +70,18 @@ bool glint_solids_have_priorities(const glint_scene *scene);
 void glint_contact_describe(const glint_scene *scene, const glint_contact *contact, char *text,
                             size_t capacity);
 
-// Writes the first contact that is a guess, and the number of further guesses. Empty: there is
-// none.
-void glint_solids_describe_guesses(const glint_scene *scene, const glint_solids *solids, char *text,
-                                   size_t capacity);
+// What is to say about a scene's solids. Empty texts: nothing.
+typedef struct glint_solids_remarks {
+    char guesses[GLINT_CONTACT_TEXT]; // the first contact that is a guess, and how many more
+    char inside_out[GLINT_CONTACT_TEXT], open[GLINT_CONTACT_TEXT], mixed[GLINT_CONTACT_TEXT];
+} glint_solids_remarks;
 
-// Adds a warning that tells how to settle these guesses.
-void glint_solids_warn(const glint_scene *scene, const char *guesses, glint_warnings *warnings);
+void glint_solids_remark(const glint_scene *scene, const glint_topology *topology,
+                         const glint_solids *solids, glint_solids_remarks *remarks);
+
+// Adds warnings that tell how to settle these remarks.
+void glint_solids_warn(const glint_scene *scene, const glint_solids_remarks *remarks,
+                       glint_warnings *warnings);
 
 #ifdef __cplusplus
 }

@@ -543,6 +543,16 @@ check 'info --json: by its volume' stat_is true scene contacts 1 is_guess
 run render "$wine" --strict --size 8x8 --depth 1 -o out/x.png --progress none
 check '--strict: solids that touch' test "$status" -eq 3 -a ! -e out/x.png
 check '--strict: which' grep -q '"goblet" .* touches "wine" .*, and 2 more pairs: where both are' stderr
+# One triangle of glass with a volume: a solid that is open.
+glass='"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1}'
+sed -e 's/"metallicFactor": 1/"metallicFactor": 0/' -e "s/\"name\": \"chrome\",/& \"extensions\": {$glass},/" \
+    in/mirror.gltf >in/pane.gltf
+run info in/pane.gltf
+check 'info says that a solid is open' \
+    grep -q 'pane.gltf: "triangle" (node 0, chrome) is open: light .* (close the mesh, ' stdout
+run render in/pane.gltf --strict --size 8x8 --depth 1 -o out/x.png --progress none
+check '--strict: a solid is open' test "$status" -eq 3 -a ! -e out/x.png
+check '--strict: it is named' grep -q '"triangle" (node 0, chrome) is open: ' stderr
 run info in/mirror.gltf --env in/sun.hdr
 check 'info says why texels are float' grep -q 'float texels: .* 131072' stdout
 clean

@@ -476,9 +476,9 @@ static glint_status gather(const info_request *request, info_work *work, glint_e
     const glint_scene *scene = &work->inputs.scene;
     TRY(glint_topology_find(scene, &work->topology, error));
     TRY(glint_solids_find(scene, &work->topology, &work->solids, error));
-    char guesses[GLINT_CONTACT_TEXT];
-    glint_solids_describe_guesses(scene, &work->solids, guesses, sizeof guesses);
-    glint_solids_warn(scene, guesses, &work->inputs.warnings);
+    glint_solids_remarks remarks;
+    glint_solids_remark(scene, &work->topology, &work->solids, &remarks);
+    glint_solids_warn(scene, &remarks, &work->inputs.warnings);
     return make_plan(request, work, error);
 }
 

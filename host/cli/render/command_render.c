@@ -156,8 +156,8 @@ static glint_status prepare_and_render(render_run *run, glint_error *error)
     TRY(status);
     glint_warnings *warnings = &run->shot.stage.inputs.warnings;
     const size_t said = warnings->count;
-    const char *guesses = glint_renderer_plan(run->tracer.renderer)->guesses;
-    glint_solids_warn(&run->shot.stage.inputs.scene, guesses, warnings);
+    glint_solids_warn(&run->shot.stage.inputs.scene,
+                      &glint_renderer_plan(run->tracer.renderer)->remarks, warnings);
     glint_say_warnings(warnings, said);
     TRY(check_strict(request, warnings, error));
     bool is_new = false;
