@@ -67,7 +67,7 @@ static lobe_integrals integrate(const surface *s)
     lobe_integrals sum = {0};
     for (int i = 0; i < FACETS; i++) {
         const surface facet = oracle_facet(s, i, FACETS, 1);
-        vector l;
+        vector l = {{0, 0, 0}};
         oracle_reflect(facet.normal.at, s->viewer.at, l.at);
         const double weight = oracle_opening(s, dot(s->normal, l)) / FACETS;
         const double edge = weight * pow(1 - facet.cosine, 5), base = weight - edge;
