@@ -22,6 +22,8 @@
 #define FAN 8       // children of a box; triangles of a lowest box
 #define LEVELS 12   // enough for 8^12 triangles
 #define FARTHER 4.0 // factor on the kernels' distance
+// Rays are exact to a share of this many times the distance to a small part (LARGE_TRIANGLE).
+#define NEIGHBOURHOOD 16
 // The most pairs of triangles to compare, worth some seconds. A heap of triangles that all cross
 // each other has more pairs, and more contacts than anyone reads. In this case all triangles may
 // touch.
@@ -55,8 +57,18 @@ typedef struct search {
 
 typedef struct face {
     glint_vec3 at[3], normal; // the normal is a unit vector
-    double reach;             // triangles within this distance of its plane coincide with it
+    double along_normal;      // the corners' coordinates along the normal
+    double size;              // the largest coordinate
 } face;
+
+// Triangles within this distance of a face's plane coincide with it. The first term covers the
+// rounding of its corners. The second covers the rounding of rays, for planes through the origin.
+// Near a smaller part, rays are as exact as this part is.
+static double reach_of(const face *f, const face *other)
+{
+    const double size = fmin(f->size, NEIGHBOURHOOD * other->size);
+    return FARTHER * (double)GLINT_TOUCHING * (f->along_normal + 0.5 * size);
+}
 
 static face face_of(const glint_scene *scene, uint32_t triangle)
 {
@@ -69,22 +81,20 @@ static face face_of(const glint_scene *scene, uint32_t triangle)
             most[k] = fmax(most[k], fabs((double)told[3 * i + k]));
         }
     }
-    const double size = scene->parts.count > 0 ? fmax(most[0], fmax(most[1], most[2])) : 1;
+    f.size = scene->parts.count > 0 ? fmax(most[0], fmax(most[1], most[2])) : 1;
     f.normal = glint_vec3_normalize(glint_vec3_cross(glint_vec3_subtract(f.at[1], f.at[0]),
                                                      glint_vec3_subtract(f.at[2], f.at[0])));
-    // The last term covers the rounding of rays, for planes through the origin.
-    f.reach = FARTHER * (double)GLINT_TOUCHING *
-              (fabs(f.normal.x) * most[0] + fabs(f.normal.y) * most[1] +
-               fabs(f.normal.z) * most[2] + 0.5 * size);
+    f.along_normal =
+        fabs(f.normal.x) * most[0] + fabs(f.normal.y) * most[1] + fabs(f.normal.z) * most[2];
     return f;
 }
 
 // Heights of the corners of `above` over the plane of `f`; 0 within its reach.
-static void find_heights(const face *f, const face *above, double heights[3])
+static void find_heights(const face *f, const face *above, double reach, double heights[3])
 {
     for (int i = 0; i < 3; i++) {
         const double h = glint_vec3_dot(f->normal, glint_vec3_subtract(above->at[i], f->at[0]));
-        heights[i] = fabs(h) <= f->reach ? 0 : h;
+        heights[i] = fabs(h) <= reach ? 0 : h;
     }
 }
 
@@ -100,7 +110,7 @@ static bool on_one_side(const double heights[3])
 }
 
 // True if some edge of `a` separates the two faces within the plane of `a`.
-static bool edge_separates(const face *a, const face *b)
+static bool edge_separates(const face *a, const face *b, double reach)
 {
     for (int i = 0; i < 3; i++) {
         const glint_vec3 from = a->at[i];
@@ -110,7 +120,7 @@ static bool edge_separates(const face *a, const face *b)
         for (int k = 0; k < 3; k++) {
             least = fmin(least, glint_vec3_dot(out, glint_vec3_subtract(b->at[k], from)));
         }
-        if (least >= -a->reach) {
+        if (least >= -reach) {
             return true;
         }
     }
@@ -144,11 +154,14 @@ static meeting meet(const face *a, const face *b)
 {
     double of_b[3];
     double of_a[3];
-    find_heights(a, b, of_b);
-    find_heights(b, a, of_a);
+    const double reach_a = reach_of(a, b);
+    const double reach_b = reach_of(b, a);
+    find_heights(a, b, reach_a, of_b);
+    find_heights(b, a, reach_b, of_a);
     if (all_zero(of_a) || all_zero(of_b)) {
         const bool alike = fabs(glint_vec3_dot(a->normal, b->normal)) > NEARLY_PARALLEL;
-        return alike && !edge_separates(a, b) && !edge_separates(b, a) ? TOUCHING : APART;
+        return alike && !edge_separates(a, b, reach_a) && !edge_separates(b, a, reach_b) ? TOUCHING
+                                                                                         : APART;
     }
     if (on_one_side(of_a) || on_one_side(of_b)) {
         return APART;
@@ -159,7 +172,7 @@ static meeting meet(const face *a, const face *b)
     find_stretch(a, of_a, along, one);
     find_stretch(b, of_b, along, other);
     const double common = fmin(one[1], other[1]) - fmax(one[0], other[0]);
-    return common > fmax(a->reach, b->reach) ? CROSSING : APART;
+    return common > fmax(reach_a, reach_b) ? CROSSING : APART;
 }
 
 // ---- All pairs ----------------------------------------------------------------------------------
@@ -325,7 +338,8 @@ static box box_of(const search *s, uint32_t triangle)
     for (int i = 0; i < 3; i++) {
         grow_box(&b, p + (size_t)i * 3, p + (size_t)i * 3);
     }
-    const float margin = (float)face_of(s->scene, triangle).reach;
+    const face f = face_of(s->scene, triangle);
+    const float margin = (float)reach_of(&f, &f);
     for (int k = 0; k < 3; k++) {
         b.low[k] -= margin;
         b.high[k] += margin;
