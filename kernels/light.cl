@@ -1,11 +1,5 @@
 // Reads directions from the frame, and finds the light that the environment sends to surfaces.
 
-static inline real3 join_vector(const glint_split_vector *v)
-{
-    return real3_of(real_of(JOIN(v->high[0], v->low[0])), real_of(JOIN(v->high[1], v->low[1])),
-                    real_of(JOIN(v->high[2], v->low[2])));
-}
-
 // If the environment is turned by the angle a about +Y, it is looked up along d turned by −a.
 static inline real3 turn_into_environment(const glint_frame_record *frame, real3 d)
 {

@@ -14,10 +14,19 @@ static inline real reach_of_place(const scene_buffers *scene, const surface *s, 
 {
     const scalar of_offset = (scalar)GLINT_TOUCHING / START_OFFSET(scene);
     real size = real_of(1);
-#if GLINT_LOCAL_ORIGINS
+#if LOCAL_RAYS
     size = HAS(LOCAL_ORIGINS) ? s->size : size;
 #endif
-    return fused(t + size, real_of(CROSSING_SLACK), s->offset * of_offset);
+    const real reach = fused(t + size, real_of(CROSSING_SLACK), s->offset * of_offset);
+#if LOCAL_RAYS
+    // place_nearby bounds the rays' rounding by the offset. The corners are rounded, too.
+    if (HAS(LOCAL_ORIGINS)) {
+        const real nearby =
+            LARGER(s->offset * of_offset, s->along_normal * (scalar)GLINT_TOUCHING);
+        return SELECT(LARGE_TRIANGLE * t < size, nearby, reach);
+    }
+#endif
+    return reach;
 }
 
 #if GLINT_OVERLAPS

@@ -17,43 +17,16 @@ static inline primary primary_of(const tile *t, int group)
     return first;
 }
 
-// The directions of the primary rays through points (x, y) of the image plane, see
-// glint_frame_record. Their length is 1 or more.
-static inline real3 primary_directions(const glint_frame_record *frame, real x, real y)
-{
-    return scale_add(
-        join_vector(&frame->direction_y), y,
-        scale_add(join_vector(&frame->direction_x), x, join_vector(&frame->direction)));
-}
-
-// Sets the origins of the primary rays through points (x, y) of the image plane.
-static inline void begin_at_eye(const glint_frame_record *frame, real x, real y, path *ray)
-{
-    const glint_split_vector *o = &frame->origin;
-    ray->origin =
-        scale_add(join_vector(&frame->origin_y), y,
-                  scale_add(join_vector(&frame->origin_x), x, join_vector(o)));
-#if LOCAL_RAYS
-    ray->origin_low = real3_of(real_of(0), real_of(0), real_of(0));
-    if (HAS_IN(frame, LOCAL_ORIGINS)) {
-        const real3 from_middle =
-            scale_add(join_vector(&frame->origin_y), y, scale(join_vector(&frame->origin_x), x));
-        const pair at_x = sum_of(real_of(o->high[0]), from_middle.x);
-        const pair at_y = sum_of(real_of(o->high[1]), from_middle.y);
-        const pair at_z = sum_of(real_of(o->high[2]), from_middle.z);
-        ray->origin = real3_of(at_x.high, at_y.high, at_z.high);
-        ray->origin_low =
-            real3_of(at_x.low + o->low[0], at_y.low + o->low[1], at_z.low + o->low[2]);
-    }
-#endif
-}
-
 // Makes the primary rays; sets the lengths in *first.
 static inline path primary_rays(const glint_frame_record *frame, primary *first)
 {
     real x = first->x, y = first->y;
     path ray;
-    begin_at_eye(frame, x, y, &ray);
+#if LOCAL_RAYS
+    ray.origin = begin_at_eye(frame, x, y, &ray.origin_low);
+#else
+    ray.origin = begin_at_eye(frame, x, y, 0);
+#endif
     real3 d = primary_directions(frame, x, y);
     real length_squared = dot3(d, d);
     real inverse = inverse_root(length_squared);

@@ -23,6 +23,9 @@ typedef struct surface {
 #if GLINT_LOCAL_ORIGINS
     real size; // largest magnitude of the corners' coordinates, from the anchor
 #endif
+#if LOCAL_RAYS
+    real along_normal; // the corners' coordinates along the normal: their rounding is a share of it
+#endif
     real offset; // distance off the surface at which rays must start, along the geometric normal
     real3 geometric_normal; // unit, towards the viewer
     real3 lit_normal;       // unit shading normal on the side that receives light
@@ -212,10 +215,12 @@ static inline void place_on_triangle(const scene_buffers *scene, const triangle 
     reach.z = LARGER(fabs(vertices[0].z), LARGER(fabs(vertices[1].z), fabs(vertices[2].z)));
     real3 n = real3_of(fabs(s->geometric_normal.x), fabs(s->geometric_normal.y),
                        fabs(s->geometric_normal.z));
-    s->offset = START_OFFSET(scene) * dot3(n, reach);
+    const real along_normal = dot3(n, reach);
+    s->offset = START_OFFSET(scene) * along_normal;
 #if GLINT_LOCAL_ORIGINS
     s->size = largest3(reach);
 #if LOCAL_RAYS
+    s->along_normal = along_normal;
     s->position_low = real3_of(real_of(0), real_of(0), real_of(0));
     if (HAS(LOCAL_ORIGINS)) {
         const real3 at = s->position;

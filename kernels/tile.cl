@@ -12,11 +12,48 @@
 #define TILE_GROUPS (TILE_COLUMNS * TILE_ROWS)
 #define TILE_PIXELS (TILE_GROUPS * GLINT_WIDTH)
 
+static inline real3 join_vector(const glint_split_vector *v)
+{
+    return real3_of(real_of(JOIN(v->high[0], v->low[0])), real_of(JOIN(v->high[1], v->low[1])),
+                    real_of(JOIN(v->high[2], v->low[2])));
+}
+
+// The directions of the primary rays through points (x, y) of the image plane, see
+// glint_frame_record. Their length is 1 or more.
+static inline real3 primary_directions(const glint_frame_record *frame, real x, real y)
+{
+    return scale_add(
+        join_vector(&frame->direction_y), y,
+        scale_add(join_vector(&frame->direction_x), x, join_vector(&frame->direction)));
+}
+
+// The origins of the primary rays through points (x, y) of the image plane. With LOCAL_RAYS *low
+// gets their low parts.
+static inline real3 begin_at_eye(const glint_frame_record *frame, real x, real y, real3 *low)
+{
+    const glint_split_vector *o = &frame->origin;
+#if LOCAL_RAYS
+    *low = real3_of(real_of(0), real_of(0), real_of(0));
+    if (HAS_IN(frame, LOCAL_ORIGINS)) {
+        const real3 from_middle =
+            scale_add(join_vector(&frame->origin_y), y, scale(join_vector(&frame->origin_x), x));
+        const pair at_x = sum_of(real_of(o->high[0]), from_middle.x);
+        const pair at_y = sum_of(real_of(o->high[1]), from_middle.y);
+        const pair at_z = sum_of(real_of(o->high[2]), from_middle.z);
+        *low = real3_of(at_x.low + o->low[0], at_y.low + o->low[1], at_z.low + o->low[2]);
+        return real3_of(at_x.high, at_y.high, at_z.high);
+    }
+#endif
+    return scale_add(join_vector(&frame->origin_y), y,
+                     scale_add(join_vector(&frame->origin_x), x, join_vector(o)));
+}
+
 // The primary rays of a frame in image coordinates.
 typedef struct image_space {
     scalar origin[3];                      // start of the middle ray, stored coordinates
 #if LOCAL_RAYS
     scalar origin_low[3]; // the low parts of the origin
+    const glint_frame_record *frame;
 #endif
     scalar rows[3][3];                     // give x, y and z of a point relative to the origin
     scalar offset, slope;                  // h = offset + slope z
@@ -48,6 +85,9 @@ typedef struct tile {
 static inline image_space make_image_space(const glint_frame_record *frame)
 {
     image_space s;
+#if LOCAL_RAYS
+    s.frame = frame;
+#endif
 #pragma unroll
     for (int k = 0; k < 3; k++) {
         s.origin[k] = JOIN(frame->origin.high[k], frame->origin.low[k]);

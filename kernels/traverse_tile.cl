@@ -16,6 +16,9 @@ typedef struct image_triangles {
     block_mask groups; // groups within the triangle's bounds, as bits
     block reach[3];    // how far the edges may rise from a group's centre
     block key_reach;   // how far the key may rise from a group's centre
+#if LOCAL_RAYS
+    block_mask wide; // the key has lost its digits: see key_on_plane
+#endif
 } image_triangles;
 
 // n·p for the corner p of each box that lies farthest along n.
@@ -88,9 +91,10 @@ static inline void edge_function(const block a[4], const block b[4], block edge[
 // The key as an affine function of the pixel on each triangle's plane. From the plane n·(x, y, z) =
 // D with x = X h, y = Y h it is (A (n_x X + n_y Y) + B n_z − C D)/(slope D + offset n_z), see
 // image_key. `side` is the denominator: twice the volume of the triangle and the eye, positive if
-// the triangle winds left.
+// the triangle winds left. `wide` marks triangles whose plane is near the eye, compared with their
+// corners: their D or denominator is a small difference of large numbers.
 static inline void key_function(const image_space *s, block corners[3][4], block key[3],
-                                block *side)
+                                block *side, block_mask *wide)
 {
     block u[3], v[3];
 #pragma unroll
@@ -107,6 +111,11 @@ static inline void key_function(const image_space *s, block corners[3][4], block
     key[0] = nx * s->key_normal * inverse;
     key[1] = ny * s->key_normal * inverse;
     key[2] = (s->key_one * nz - s->key_depth * d) * inverse;
+#if LOCAL_RAYS
+    const block terms = fabs(nx * corners[0][0]) + fabs(ny * corners[0][1]) +
+                        fabs(nz) * (fabs(corners[0][2]) + s->offset);
+    *wide = !(SMALLER(fabs(*side), fabs(d)) * LARGE_TRIANGLE > terms);
+#endif
 }
 
 // A bound of the rounding errors: they grow with the triangles' edges and positions in the tile.
@@ -200,7 +209,8 @@ static inline uint make_image_triangles(const image_space *s, const tile *t,
         }
     }
     block side, largest_h;
-    key_function(s, corners, out->key, &side);
+    block_mask wide = 0;
+    key_function(s, corners, out->key, &side, &wide);
     block bound = rounding_bound(t, corners, &largest_h);
     // A triangle seen (nearly) edge-on may wind either way: none of its signs is certain.
     block_mask edge_on = !(fabs(side) > R(2.0) * largest_h * bound);
@@ -230,6 +240,12 @@ static inline uint make_image_triangles(const image_space *s, const tile *t,
     block error =
         (fused(ax, block_of(t->largest_x), fused(ay, block_of(t->largest_y), fabs(out->key[2])))) *
         (R(8.0) * EPSILON);
+#if LOCAL_RAYS
+    if (HAS_IN(s->frame, LOCAL_ORIGINS)) {
+        error = SELECT(wide, block_of(HUGE), error);
+        out->wide = wide;
+    }
+#endif
     block middle = fused(out->key[0], block_of(t->middle_x),
                          fused(out->key[1], block_of(t->middle_y), out->key[2]));
     block highest =
@@ -322,6 +338,38 @@ static inline mask covers_exactly(const block vertices[4], global const float *c
            (LARGEST3(cy[0], cy[1], cy[2]) >= R(0.0));
 }
 
+#if LOCAL_RAYS
+// The keys of a wide triangle for pixels at (x, y). The plane through its corners has the digits that
+// the affine function has lost. `key` is the function's value.
+static inline real key_on_plane(const image_space *s, const block vertices[4],
+                                global const float *cluster, int i, real x, real y, real key)
+{
+    global const uchar *indices = (global const uchar *)(cluster + GLINT_CLUSTER_CORNERS);
+    float at[9];
+    load_triangle(cluster, i, at);
+    real3 low;
+    const real3 o = begin_at_eye(s->frame, x, y, &low), d = primary_directions(s->frame, x, y);
+    const real origin[3] = {o.x, o.y, o.z}, origin_low[3] = {low.x, low.y, low.z};
+    const real direction[3] = {d.x, d.y, d.z};
+    real corners[9], anchor[3];
+    scalar depths[3];
+#pragma unroll
+    for (int k = 0; k < 9; k++) {
+        corners[k] = real_of(at[k]);
+    }
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        anchor[k] = real_of(FROM_SCENE(cluster, k, R(0.0)));
+        depths[k] = ((const scalar *)&vertices[2])[indices[k * GLINT_CLUSTER_LANES + i]];
+    }
+    const real z = depth_of_plane(corners, anchor, origin, origin_low, direction);
+    const mask within = (z >= SMALLEST3(depths[0], depths[1], depths[2])) &
+                        (z <= LARGEST3(depths[0], depths[1], depths[2]));
+    const real h = fused(real_of(s->slope), z, real_of(s->offset));
+    return SELECT(within, (s->key_one - s->key_depth * z) / h, key);
+}
+#endif
+
 // Tests triangle i of a cluster against the pixels of one group; true if any sees it.
 static inline bool meet_group(const image_space *s, tile *t, const image_triangles *triangles,
                               const block vertices[4], global const float *cluster,
@@ -335,11 +383,17 @@ static inline bool meet_group(const image_space *s, tile *t, const image_triangl
     real e2 = fused(OF(edges[2][0]), x, fused(OF(edges[2][1]), y, OF(edges[2][2])));
     real key =
         fused(OF(triangles->key[0]), x, fused(OF(triangles->key[1]), y, OF(triangles->key[2])));
-    // Never nearer than the nearest corner, in spite of rounding: culling relies on it.
-    key = SMALLER(key, OF(triangles->key_largest));
     real least = SMALLER(e0, e1);
     least = SMALLER(least, e2);
     real uncertain = OF(triangles->uncertain);
+#if LOCAL_RAYS
+    if (HAS_IN(s->frame, LOCAL_ORIGINS) && ((const lane_int *)&triangles->wide)[i] &&
+        any_lane(least >= -uncertain)) {
+        key = key_on_plane(s, vertices, cluster, i, x, y, key);
+    }
+#endif
+    // Never nearer than the nearest corner, in spite of rounding: culling relies on it.
+    key = SMALLER(key, OF(triangles->key_largest));
     mask seen = (least >= -uncertain) & (key >= t->key[g]);
     if (!any_lane(seen)) {
         return false;

@@ -1,4 +1,5 @@
 // Tests small parts: which triangles get an origin of their own, and with what precision.
+#include "scene/digits.h"
 #include "scene/parts.h"
 #include "scene/subset.h"
 #include "support/gltf_text.h"
@@ -212,6 +213,87 @@ static void a_file_keeps_what_is_small(void **state)
     glint_scene_free(&scene);
 }
 
+// ---- Digits ------------------------------------------------------------------------------------
+
+// A tetrahedron of the given size at a place on a floor of 10 km; and something high above, which
+// raises the scene's origin.
+static glint_scene bead_below(const char *folder, double size, const char *place, const char *above)
+{
+    char rest[2000];
+    snprintf(rest, sizeof rest,
+             TETRAHEDRON ",\"nodes\":[{\"mesh\":0,\"scale\":[10000,1e-9,10000],\"name\":\"floor\"},"
+                         "{\"mesh\":0,\"scale\":[%g,%g,%g],\"translation\":[%s],\"name\":\"bead\"},"
+                         "{\"mesh\":0,\"translation\":[%s]}],"
+                         "\"scenes\":[{\"nodes\":[0,1,2]}]",
+             size, size, size, place, above);
+    return load_rest(folder, &the_tetrahedron, sizeof the_tetrahedron, rest);
+}
+
+static void parts_beside_coarse_surfaces_are_said(void **state)
+{
+    // Places on the floor are 2^-21 of its height below the origin deep, half of the height of what
+    // is above: 2.4 mm for 10 km.
+    static const struct {
+        double size;
+        const char *place, *above;
+        size_t count;
+    } cases[] = {
+        {1e-4, "2000,0,1000", "3000,1,3000", 0},
+        {1e-4, "2000,0,1000", "3000,100,3000", 0},
+        {1e-4, "2000,0,1000", "3000,1000,3000", 1},
+        {1e-4, "2000,0,1000", "3000,10000,3000", 1},
+        {2e-3, "2000,0,1000", "3000,10000,3000", 1},
+        {3e-3, "2000,0,1000", "3000,10000,3000", 0},
+        {1e-4, "2000,0.001,1000", "3000,10000,3000", 1}, // nearer than a place
+        {1e-4, "2000,0.01,1000", "3000,10000,3000", 0},
+        {1e-4, "-0.01,0,1000", "3000,10000,3000", 0}, // beside the floor
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        glint_scene scene = bead_below(*state, cases[i].size, cases[i].place, cases[i].above);
+        const glint_coarse_places found = glint_coarse_places_find(&scene, NULL, 100);
+        print_message("%g m at %s, below %s: %zu\n", cases[i].size, cases[i].place, cases[i].above,
+                      found.count);
+        assert_int_equal(found.count, cases[i].count);
+        if (found.count > 0) {
+            assert_string_equal(scene.instances[found.instance].node, "bead");
+            assert_true(fabs(found.width - cases[i].size) < 0.01 * cases[i].size);
+            assert_true(found.place > found.width);
+        }
+        glint_scene_free(&scene);
+    }
+}
+
+// What is smaller than a pixel, or behind the camera, is not worth a warning.
+static void parts_out_of_sight_are_not_said(void **state)
+{
+    glint_scene scene = bead_below(*state, 1e-4, "2000,0,1000", "3000,10000,3000");
+    const glint_vec3 target = {2000, 0, 1000};
+    const glint_vec3 up = {0, 1, 0};
+    static const struct {
+        double away;
+        int height;
+        bool turned;
+        size_t count;
+    } views[] = {{1e-3, 100, false, 1},
+                 {0.1, 1000, false, 1},
+                 {0.1, 100, false, 0},
+                 {1000, 1000, false, 0},
+                 {1e-3, 100, true, 0}};
+    for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
+        glint_camera camera = {.yfov = 0.7};
+        glint_warnings warnings = {0};
+        const glint_vec3 eye = {target.x, target.y + 0.3 * views[i].away, target.z + views[i].away};
+        const glint_vec3 ahead = glint_vec3_subtract(glint_vec3_scale(eye, 2), target);
+        assert_true(glint_camera_look(eye, views[i].turned ? ahead : target, up, &camera));
+        glint_coarse_places_warn(&scene, &camera, views[i].height, &warnings);
+        assert_int_equal(warnings.count, views[i].count);
+        assert_true(views[i].count == 0 ||
+                    any_warning_has(&warnings, "\"bead\" (node 1) is 0.0001 m"));
+        glint_warnings_free(&warnings);
+    }
+    glint_scene_free(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -221,6 +303,8 @@ int main(void)
         cmocka_unit_test(what_shares_a_corner_alone_is_apart),
         cmocka_unit_test(zeros_of_both_signs_are_one),
         cmocka_unit_test(a_file_keeps_what_is_small),
+        cmocka_unit_test(parts_beside_coarse_surfaces_are_said),
+        cmocka_unit_test(parts_out_of_sight_are_not_said),
     };
     return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

@@ -3,15 +3,13 @@
 // boxes lies over them: boxes of eight triangles, of eight such boxes, and so on. The tree is
 // joined with itself: triangles whose boxes meet are compared, O(n log n) pairs.
 //
-// Two surfaces coincide if their distance along the normal is less than GLINT_TOUCHING of their
-// coordinates. The search here uses a few times the distance that the kernels use
-// (kernels/overlaps.cl). The kernels judge ray by ray, so a mark too many costs time but changes no
-// picture.
+// The kernels judge ray by ray, so a mark too many costs time but changes no picture.
 #include "scene/contacts.h"
 
 #include "base/memory.h"
 #include "base/vector.h"
 #include "kernels/layout.h"
+#include "scene/faces.h"
 
 #include <meshoptimizer.h>
 
@@ -19,23 +17,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FAN 8       // children of a box; triangles of a lowest box
-#define LEVELS 12   // enough for 8^12 triangles
-#define FARTHER 4.0 // factor on the kernels' distance
+#define FAN 8     // children of a box; triangles of a lowest box
+#define LEVELS 12 // enough for 8^12 triangles
 // The most pairs of triangles to compare, worth some seconds. A heap of triangles that all cross
 // each other has more pairs, and more contacts than anyone reads. In this case all triangles may
 // touch.
 #define PAIRS_MAX ((size_t)16 * 1024 * 1024)
 #define CONTACTS_MAX ((size_t)256 * 1024)
+#define SIDES_MAX ((size_t)1024 * 1024) // of edges on triangles; more are not looked at
 #define MIXED 0xFFFFFFFFu
 #define NO_SOLID 0xFFFFFFFEu // a component number for triangles of no solid
-// The least cosine between coinciding planes; the kernels use 0.99.
-#define NEARLY_PARALLEL 0.9
 
 typedef struct box {
     float low[3], high[3];
     uint32_t component; // component of all triangles inside, or MIXED
 } box;
+
+// A triangle of one solid with an edge on a triangle of another one.
+typedef struct side_of_edge {
+    uint32_t plane, body; // components: of the triangle that the edge lies on, and of the edge
+    glint_face_edge edge;
+} side_of_edge;
 
 typedef struct search {
     const glint_scene *scene;
@@ -48,119 +50,10 @@ typedef struct search {
     int levels;
     size_t capacity; // capacity of the list of contacts
     size_t pairs;    // pairs of triangles left to compare
+    side_of_edge *sides;
+    size_t side_count, side_capacity;
     bool complete;
 } search;
-
-// ---- Two triangles ------------------------------------------------------------------------------
-
-typedef struct face {
-    glint_vec3 at[3], normal; // the normal is a unit vector
-    double reach;             // triangles within this distance of its plane coincide with it
-} face;
-
-static face face_of(const glint_scene *scene, uint32_t triangle)
-{
-    const float *told = glint_scene_told(scene) + (size_t)triangle * 9;
-    face f;
-    double most[3] = {0, 0, 0};
-    for (int i = 0; i < 3; i++) {
-        f.at[i] = glint_scene_corner(scene, triangle, i);
-        for (int k = 0; k < 3; k++) {
-            most[k] = fmax(most[k], fabs((double)told[3 * i + k]));
-        }
-    }
-    const double size = scene->parts.count > 0 ? fmax(most[0], fmax(most[1], most[2])) : 1;
-    f.normal = glint_vec3_normalize(glint_vec3_cross(glint_vec3_subtract(f.at[1], f.at[0]),
-                                                     glint_vec3_subtract(f.at[2], f.at[0])));
-    // The last term covers the rounding of rays, for planes through the origin.
-    f.reach = FARTHER * (double)GLINT_TOUCHING *
-              (fabs(f.normal.x) * most[0] + fabs(f.normal.y) * most[1] +
-               fabs(f.normal.z) * most[2] + 0.5 * size);
-    return f;
-}
-
-// Heights of the corners of `above` over the plane of `f`; 0 within its reach.
-static void find_heights(const face *f, const face *above, double heights[3])
-{
-    for (int i = 0; i < 3; i++) {
-        const double h = glint_vec3_dot(f->normal, glint_vec3_subtract(above->at[i], f->at[0]));
-        heights[i] = fabs(h) <= f->reach ? 0 : h;
-    }
-}
-
-static bool all_zero(const double heights[3])
-{
-    return heights[0] == 0 && heights[1] == 0 && heights[2] == 0;
-}
-
-static bool on_one_side(const double heights[3])
-{
-    return (heights[0] >= 0 && heights[1] >= 0 && heights[2] >= 0) ||
-           (heights[0] <= 0 && heights[1] <= 0 && heights[2] <= 0);
-}
-
-// True if some edge of `a` separates the two faces within the plane of `a`.
-static bool edge_separates(const face *a, const face *b)
-{
-    for (int i = 0; i < 3; i++) {
-        const glint_vec3 from = a->at[i];
-        const glint_vec3 along = glint_vec3_subtract(a->at[(i + 1) % 3], from);
-        const glint_vec3 out = glint_vec3_normalize(glint_vec3_cross(along, a->normal));
-        double least = INFINITY;
-        for (int k = 0; k < 3; k++) {
-            least = fmin(least, glint_vec3_dot(out, glint_vec3_subtract(b->at[k], from)));
-        }
-        if (least >= -a->reach) {
-            return true;
-        }
-    }
-    return false;
-}
-
-// Finds the stretch of a line that lies on a face, in the direction `along`. The face crosses the
-// line.
-static void find_stretch(const face *f, const double heights[3], glint_vec3 along, double ends[2])
-{
-    ends[0] = INFINITY;
-    ends[1] = -INFINITY;
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3;
-        if (heights[i] * heights[j] > 0 || heights[i] == heights[j]) {
-            continue;
-        }
-        const double share = heights[i] / (heights[i] - heights[j]);
-        const glint_vec3 at = glint_vec3_add(
-            f->at[i], glint_vec3_scale(glint_vec3_subtract(f->at[j], f->at[i]), share));
-        const double where = glint_vec3_dot(along, at);
-        ends[0] = fmin(ends[0], where);
-        ends[1] = fmax(ends[1], where);
-    }
-}
-
-typedef enum meeting { APART, TOUCHING, CROSSING } meeting;
-
-// Tells how two faces meet. Möller, "A Fast Triangle-Triangle Intersection Test" (1997).
-static meeting meet(const face *a, const face *b)
-{
-    double of_b[3];
-    double of_a[3];
-    find_heights(a, b, of_b);
-    find_heights(b, a, of_a);
-    if (all_zero(of_a) || all_zero(of_b)) {
-        const bool alike = fabs(glint_vec3_dot(a->normal, b->normal)) > NEARLY_PARALLEL;
-        return alike && !edge_separates(a, b) && !edge_separates(b, a) ? TOUCHING : APART;
-    }
-    if (on_one_side(of_a) || on_one_side(of_b)) {
-        return APART;
-    }
-    const glint_vec3 along = glint_vec3_normalize(glint_vec3_cross(a->normal, b->normal));
-    double one[2];
-    double other[2];
-    find_stretch(a, of_a, along, one);
-    find_stretch(b, of_b, along, other);
-    const double common = fmin(one[1], other[1]) - fmax(one[0], other[0]);
-    return common > fmax(a->reach, b->reach) ? CROSSING : APART;
-}
 
 // ---- All pairs ----------------------------------------------------------------------------------
 
@@ -248,6 +141,66 @@ static void note_contact(search *s, uint32_t a, uint32_t b, bool overlap)
     solids->contacts[solids->contact_count++] = contact;
 }
 
+// Notes on which side of `f` is a triangle that has an edge on it. If two triangles at the edge are
+// on both sides, the surfaces cross there.
+static void note_edge(search *s, uint32_t plane, uint32_t body, const glint_face *f,
+                      const glint_face *other)
+{
+    side_of_edge side = {.plane = plane, .body = body};
+    if (s->side_count == SIDES_MAX || !glint_edge_on_face(f, other, &side.edge)) {
+        return;
+    }
+    if (s->side_count == s->side_capacity) {
+        const size_t larger = s->side_capacity > 0 ? 2 * s->side_capacity : 64;
+        side_of_edge *sides = realloc(s->sides, larger * sizeof *sides);
+        if (sides == NULL) {
+            s->complete = false;
+            return;
+        }
+        s->sides = sides;
+        s->side_capacity = larger;
+    }
+    s->sides[s->side_count++] = side;
+}
+
+// Sorts the sides of an edge together.
+static int compare_edges(const void *left, const void *right)
+{
+    const side_of_edge *a = left;
+    const side_of_edge *b = right;
+    if (a->plane != b->plane) {
+        return a->plane < b->plane ? -1 : 1;
+    }
+    if (a->body != b->body) {
+        return a->body < b->body ? -1 : 1;
+    }
+    const double one[6] = {a->edge.ends[0].x, a->edge.ends[0].y, a->edge.ends[0].z,
+                           a->edge.ends[1].x, a->edge.ends[1].y, a->edge.ends[1].z};
+    const double other[6] = {b->edge.ends[0].x, b->edge.ends[0].y, b->edge.ends[0].z,
+                             b->edge.ends[1].x, b->edge.ends[1].y, b->edge.ends[1].z};
+    for (int k = 0; k < 6; k++) {
+        if (one[k] != other[k]) {
+            return one[k] < other[k] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+// Finds the edges where surfaces cross.
+static void cross_in_edges(search *s)
+{
+    if (s->side_count > 0) {
+        qsort(s->sides, s->side_count, sizeof *s->sides, compare_edges);
+    }
+    size_t first = 0;
+    for (size_t i = 1; i < s->side_count; i++) {
+        first = compare_edges(&s->sides[i], &s->sides[first]) == 0 ? first : i;
+        if (s->sides[i].edge.is_above != s->sides[first].edge.is_above) {
+            note_contact(s, s->sides[i].plane, s->sides[i].body, true);
+        }
+    }
+}
+
 static void meet_triangles(search *s, size_t i, size_t j)
 {
     const box *left = &s->boxes[0][i];
@@ -262,18 +215,21 @@ static void meet_triangles(search *s, size_t i, size_t j)
     s->pairs--;
     const uint32_t a = s->order[i];
     const uint32_t b = s->order[j];
-    const face one = face_of(s->scene, a);
-    const face other = face_of(s->scene, b);
-    const meeting how = meet(&one, &other);
-    if (how == APART || (same && !(how == TOUCHING && // neighbours in a plane have equal winding
-                                   glint_vec3_dot(one.normal, other.normal) < 0))) {
+    const glint_face one = glint_face_of(s->scene, a);
+    const glint_face other = glint_face_of(s->scene, b);
+    const glint_meeting how = glint_faces_meet(&one, &other);
+    // Neighbours in a plane have equal winding.
+    if (same && !(how == GLINT_FACES_TOUCH && glint_vec3_dot(one.normal, other.normal) < 0)) {
         return;
     }
     const bool solids = left->component != NO_SOLID && right->component != NO_SOLID;
-    if (solids) {
-        note_contact(s, left->component, right->component, how == CROSSING);
+    if (solids && how == GLINT_FACES_MEET_IN_EDGE) {
+        note_edge(s, left->component, right->component, &one, &other);
+        note_edge(s, right->component, left->component, &other, &one);
+    } else if (solids && how != GLINT_FACES_APART) {
+        note_contact(s, left->component, right->component, how == GLINT_FACES_CROSS);
     }
-    if (how == TOUCHING) {
+    if (how == GLINT_FACES_TOUCH) {
         s->solids->touch_others |= !solids;
         s->solids->of_triangle[a].medium |= GLINT_SOLID_TOUCHES;
         s->solids->of_triangle[b].medium |= GLINT_SOLID_TOUCHES;
@@ -325,7 +281,8 @@ static box box_of(const search *s, uint32_t triangle)
     for (int i = 0; i < 3; i++) {
         grow_box(&b, p + (size_t)i * 3, p + (size_t)i * 3);
     }
-    const float margin = (float)face_of(s->scene, triangle).reach;
+    const glint_face f = glint_face_of(s->scene, triangle);
+    const float margin = (float)glint_face_reach(&f, &f);
     for (int k = 0; k < 3; k++) {
         b.low[k] -= margin;
         b.high[k] += margin;
@@ -367,7 +324,7 @@ static box bounds_of_solids(const glint_scene *scene, const glint_topology *topo
         }
     }
     for (int k = 0; k < 3; k++) {
-        const float margin = (float)(4 * FARTHER * (double)GLINT_TOUCHING); // coordinates are ≤ 1
+        const float margin = (float)(16 * (double)GLINT_TOUCHING); // coordinates are ≤ 1
         all.low[k] -= margin;
         all.high[k] += margin;
     }
@@ -461,8 +418,10 @@ bool glint_contacts_find(const glint_scene *scene, const glint_topology *topolog
     s.complete = solids->component_count == 0 || build(&s);
     if (s.complete && s.count > 0) {
         join(&s, s.levels - 1, 0, 0);
+        cross_in_edges(&s);
         mark_rest(&s);
     }
+    free(s.sides);
     free(s.order);
     for (int i = 0; i < LEVELS; i++) {
         free(s.boxes[i]);

@@ -21,6 +21,8 @@ static const floor_view views[] = {
     {"glass of 1 mm in the middle of 100 m", 50, 0, true, MATERIAL_GLASS},
     {"glass of 1 mm at a corner of 100 m", 50, 0.95, false, MATERIAL_GLASS},
     {"a mirror of 1 mm at a corner of 10 m, tilted", 5, 0.95, true, MATERIAL_MIRROR},
+    {"a mirror of 1 mm off the middle of 100 km", 5e4, 0.35, false, MATERIAL_MIRROR},
+    {"glass of 1 mm off the middle of 10 km", 5000, 0.35, false, MATERIAL_GLASS},
 };
 
 // Turns a direction or a place with the floor: by 0.4 about (0.6, 0, 0.8), if it is tilted.
@@ -117,7 +119,7 @@ static glint_status beads_on_floors(trial *t)
 
 const trial_case place_cases[] = {
     {"beads_on_floors",
-     "a bead of 1 mm anywhere on floors of 10 m to 1000 m, eight surfaces deep: the oracle's "
+     "a bead of 1 mm anywhere on floors of 10 m to 100 km, eight surfaces deep: the oracle's "
      "colours",
      beads_on_floors},
     {0},

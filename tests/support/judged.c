@@ -25,9 +25,10 @@ glint_settings judged_frame(int width, int height, int depth)
     return settings;
 }
 
-// Relative RMSE. Skips pixels nearer than `edge` to the edge of a triangle.
+// Relative RMSE. Skips pixels nearer than `edge` to the edge of a triangle. At least `fewest`
+// values must be left.
 static double error_of(const oracle_scene *scene, const oracle_view *view, double edge,
-                       const test_frame *frame)
+                       const test_frame *frame, size_t fewest)
 {
     double squares = 0, light = 0;
     size_t count = 0;
@@ -46,7 +47,7 @@ static double error_of(const oracle_scene *scene, const oracle_view *view, doubl
             count++;
         }
     }
-    assert_true(count > (size_t)(view->width * view->height * 3 / 8));
+    assert_true(count > fewest);
     return sqrt(squares * (double)count) / light;
 }
 
@@ -70,6 +71,15 @@ static void set_materials(const judged *j, glint_scene *scene)
     }
 }
 
+// Gives the oracle the renderer's map of irradiance.
+static void use_irradiance(bridge *b, const glint_environment *environment, glint_cube *irradiance)
+{
+    assert_int_equal(
+        glint_irradiance_map(&environment->radiance, GLINT_IRRADIANCE_EDGE, irradiance, NULL),
+        GLINT_OK);
+    bridge_use_irradiance_map(b, irradiance);
+}
+
 double judge(const judged *j)
 {
     glint_scene scene = {0};
@@ -80,10 +90,7 @@ double judge(const judged *j)
     assert_true(frame.plan.features[j->feature].compiled);
     bridge *b = bridge_create(&scene, j->environment);
     glint_cube irradiance = {0};
-    assert_int_equal(
-        glint_irradiance_map(&j->environment->radiance, GLINT_IRRADIANCE_EDGE, &irradiance, NULL),
-        GLINT_OK);
-    bridge_use_irradiance_map(b, &irradiance);
+    use_irradiance(b, j->environment, &irradiance);
     glint_camera camera;
     assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
     oracle_view view = bridge_view(&camera, &j->settings);
@@ -93,11 +100,29 @@ double judge(const judged *j)
     }
     oracle_scene turned = *bridge_scene(b);
     turned.environment_rotation = j->settings.env_rotate;
-    const double error = error_of(
-        &turned, &view, j->settings.precision == GLINT_PRECISION_DOUBLE ? 1e-9 : 1e-4, &frame);
+    const double edge = j->settings.precision == GLINT_PRECISION_DOUBLE ? 1e-9 : 1e-4;
+    const double error =
+        error_of(&turned, &view, edge, &frame, (size_t)(view.width * view.height * 3 / 8));
     bridge_free(b);
     glint_cube_free(&irradiance);
     test_frame_free(&frame);
     glint_scene_free(&scene);
+    return error;
+}
+
+double judged_overlaps(const glint_scene *scene, const glint_environment *environment,
+                       const glint_settings *settings, const test_frame *frame)
+{
+    bridge *b = bridge_create(scene, environment);
+    glint_cube irradiance = {0};
+    use_irradiance(b, environment, &irradiance);
+    glint_camera camera;
+    assert_int_equal(glint_scene_camera(scene, NULL, &camera, NULL), GLINT_OK);
+    const oracle_view view = bridge_view(&camera, settings);
+    oracle_scene overlapping = *bridge_scene(b);
+    overlapping.overlaps = true;
+    const double error = error_of(&overlapping, &view, 1e-4, frame, 100);
+    bridge_free(b);
+    glint_cube_free(&irradiance);
     return error;
 }

@@ -5,6 +5,7 @@
 #include "environment/environment.h"
 #include "render/plan.h"
 #include "scene/scene.h"
+#include "support/render.h"
 
 typedef struct judged {
     const char *scene; // name of a file in scenes/, without .gltf
@@ -29,5 +30,10 @@ glint_settings judged_frame(int width, int height, int depth);
 // Returns the relative RMSE of the device against the oracle, over the pixels that show surfaces
 // and are not near a decision.
 double judge(const judged *j);
+
+// Returns the relative RMSE of a frame against the oracle, over the pixels that show surfaces and
+// are not near edges. The oracle heeds solids that touch and overlap. It takes the first camera.
+double judged_overlaps(const glint_scene *scene, const glint_environment *environment,
+                       const glint_settings *settings, const test_frame *frame);
 
 #endif

@@ -9,6 +9,7 @@
 #include "render/general.h"
 #include "render/view.h"
 #include "report/frame/inventory.h"
+#include "scene/digits.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -479,6 +480,8 @@ static glint_status gather(const info_request *request, info_work *work, glint_e
     glint_solids_remarks remarks;
     glint_solids_remark(scene, &work->topology, &work->solids, &remarks);
     glint_solids_warn(scene, &remarks, &work->inputs.warnings);
+    glint_coarse_places_warn(scene, &work->inputs.viewpoint.camera, request->inputs.settings.height,
+                             &work->inputs.warnings);
     return make_plan(request, work, error);
 }
 

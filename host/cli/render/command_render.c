@@ -8,6 +8,7 @@
 #include "cli/render/run.h"
 #include "cli/render/summary.h"
 #include "device/device.h"
+#include "scene/digits.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -158,6 +159,9 @@ static glint_status prepare_and_render(render_run *run, glint_error *error)
     const size_t said = warnings->count;
     glint_solids_warn(&run->shot.stage.inputs.scene,
                       &glint_renderer_plan(run->tracer.renderer)->remarks, warnings);
+    glint_coarse_places_warn(&run->shot.stage.inputs.scene,
+                             &run->shot.stage.inputs.viewpoint.camera,
+                             request->inputs.settings.height, warnings);
     glint_say_warnings(warnings, said);
     TRY(check_strict(request, warnings, error));
     bool is_new = false;
