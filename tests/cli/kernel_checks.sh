@@ -49,6 +49,14 @@ check 'warm: special kernels where no general one serves' stat_is special kernel
 run render "${picture[@]}" --kernels special
 check 'warm: special kernels, asked for' stat_is special kernels
 
+# Lights that only lobes of metal show.
+lit=("$3/lights.gltf" --material '*=metallic=1,roughness=0.4' --size 16x9 --progress none)
+run render "${lit[@]}" --kernels special -o out/special.exr
+check 'lights without paint: special kernels' test "$status" -eq 0
+run render "${lit[@]}" --kernels general -o out/general.exr
+run compare out/special.exr out/general.exr --fail-above max=0
+check 'lights without paint: the same picture' test "$status" -eq 0
+
 # A long sequence begins with general kernels; special ones are compiled meanwhile.
 clean
 refuses 2 'GLINT_WIDTH' warm --build-options '-w'
