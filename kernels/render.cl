@@ -68,6 +68,7 @@ GLINT_FEATURES(CHECK)
 #include "surface.cl"
 #include "shade.cl"
 #include "sheen.cl"
+#include "albedo.cl"
 #include "rough.cl"
 #include "facets.cl"
 #include "film.cl"

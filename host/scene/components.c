@@ -5,6 +5,7 @@
 #include "scene/components.h"
 
 #include "base/memory.h"
+#include "base/union_find.h"
 #include "scene/convexity.h"
 
 #include <math.h>
@@ -12,25 +13,6 @@
 #include <string.h>
 
 #define NONE 0xFFFFFFFFu
-
-// Path halving keeps the paths short without a stack.
-static uint32_t find_root(uint32_t *parent, uint32_t triangle)
-{
-    while (parent[triangle] != triangle) {
-        parent[triangle] = parent[parent[triangle]];
-        triangle = parent[triangle];
-    }
-    return triangle;
-}
-
-// The lesser root becomes the root: the first triangle of a component. With path halving,
-// near-linear time needs no ranks.
-static void join(uint32_t *parent, uint32_t a, uint32_t b)
-{
-    a = find_root(parent, a);
-    b = find_root(parent, b);
-    parent[a > b ? a : b] = a > b ? b : a;
-}
 
 // Joins triangles by paired half-edges, and marks those of surfaces that are open.
 static void join_by_edges(glint_components *all)
@@ -42,16 +24,16 @@ static void join_by_edges(glint_components *all)
     }
     for (uint32_t corner = 0; corner < 3 * weld->list.count; corner++) {
         if (weld->twin[corner] != GLINT_UNPAIRED && weld->twin[corner] > corner) {
-            join(all->parent, corner / 3, weld->twin[corner] / 3);
+            glint_union_join(all->parent, corner / 3, weld->twin[corner] / 3);
         }
     }
     for (uint32_t corner = 0; corner < 3 * weld->list.count; corner++) {
         if (weld->twin[corner] == GLINT_UNPAIRED) {
-            all->is_open[find_root(all->parent, corner / 3)] = true;
+            all->is_open[glint_union_root(all->parent, corner / 3)] = true;
         }
     }
     for (uint32_t t = 0; t < weld->list.count; t++) {
-        all->is_open[t] = all->is_open[find_root(all->parent, t)];
+        all->is_open[t] = all->is_open[glint_union_root(all->parent, t)];
     }
 }
 
@@ -67,7 +49,7 @@ static void join_open_by_vertices(glint_components *all)
         if (*first == NONE) {
             *first = corner / 3;
         } else {
-            join(all->parent, *first, corner / 3);
+            glint_union_join(all->parent, *first, corner / 3);
         }
     }
 }
@@ -77,7 +59,7 @@ static void number_components(glint_components *all, bool closed_alone)
 {
     all->count = 0;
     for (uint32_t t = 0; t < all->weld->list.count; t++) {
-        const uint32_t root = find_root(all->parent, t);
+        const uint32_t root = glint_union_root(all->parent, t);
         if (closed_alone && all->is_open[t]) {
             all->number_of[t] = NONE;
         } else {

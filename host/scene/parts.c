@@ -4,6 +4,7 @@
 #include "scene/parts.h"
 
 #include "base/memory.h"
+#include "base/union_find.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -42,22 +43,6 @@ bool glint_parts_may_be_there(double smallest_triangle)
 }
 
 // ---- Joining ------------------------------------------------------------------------------------
-
-static uint32_t find_root(uint32_t *parent, uint32_t triangle)
-{
-    while (parent[triangle] != triangle) {
-        parent[triangle] = parent[parent[triangle]];
-        triangle = parent[triangle];
-    }
-    return triangle;
-}
-
-static void join(uint32_t *parent, uint32_t a, uint32_t b)
-{
-    a = find_root(parent, a);
-    b = find_root(parent, b);
-    parent[a > b ? a : b] = a > b ? b : a;
-}
 
 static uint64_t mixed(uint64_t hash, uint64_t value)
 {
@@ -119,7 +104,7 @@ static void join_by_edges(joining *j)
         for (; j->table.slots[slot] != NONE; slot = (slot + 1) & j->table.mask) {
             ends_of(j, j->table.slots[slot], other);
             if (ends[0] == other[0] && ends[1] == other[1]) {
-                join(j->parent, corner / 3, j->table.slots[slot] / 3);
+                glint_union_join(j->parent, corner / 3, j->table.slots[slot] / 3);
                 break;
             }
         }
@@ -192,12 +177,13 @@ static bool number_parts(joining *j, extent *extents, glint_parts *parts)
             (extent){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, INFINITY};
     }
     for (uint32_t t = 0; t < j->count; t++) {
-        grow(&extents[find_root(j->parent, t)], j->exact + 9 * (size_t)t);
+        grow(&extents[glint_union_root(j->parent, t)], j->exact + 9 * (size_t)t);
     }
     memset(j->table.slots, 0xFF, (j->table.mask + 1) * sizeof *j->table.slots);
     number_of(parts, &j->table, origin);
     for (uint32_t t = 0; t < j->count; t++) {
-        const uint32_t root = find_root(j->parent, t); // the root is the first of its triangles
+        const uint32_t root =
+            glint_union_root(j->parent, t); // the root is the first of its triangles
         if (root == t) {
             float anchor[3];
             any_small = choose_anchor(&extents[t], anchor) || any_small;

@@ -248,13 +248,6 @@ static const glint_punctual_light lamp = {.kind = GLINT_PUNCTUAL_POINT,
 // doubles this. The irradiance map errs by as much. Curved surfaces multiply the rounding error.
 #define LOOK_BOUND 4e-4
 
-// False for pixels where rounding may decide otherwise. They are left out.
-static bool is_decided(const oracle_report *report)
-{
-    return report->edge >= 1e-6 && report->critical > 1e-4 && report->threshold > 1e-4 &&
-           report->jump > 1e-4;
-}
-
 static glint_status judge_look(trial *t, const look *of)
 {
     static const double target[3] = {0, 0, 0};
@@ -285,15 +278,7 @@ static glint_status judge_look(trial *t, const look *of)
     // Render it and compare it with the oracle.
     TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
     frame.view.edges = true;
-    for (int p = 0; p < settings.width * settings.height; p++) {
-        double expected[4];
-        oracle_report report;
-        judged_pixel(&frame, p, expected, &report);
-        for (int k = 0; is_decided(&report) && k < 4; k++) {
-            measure_value(m, frame.picture.values[4 * p + k], expected[k], 1,
-                          "pixel (%d, %d), value %d", p % settings.width, p / settings.width, k);
-        }
-    }
+    judged_compare(&frame, m);
 cleanup:
     judged_end(&frame);
     glint_scene_free(&scene);

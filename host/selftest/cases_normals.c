@@ -132,15 +132,7 @@ static glint_status judge_matte_ball(trial *t, const double eye[3], glint_measur
     TRY_OR(cleanup, status, leaning_ball(MATERIAL_PAINT, &scene, t->error));
     TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
     frame.view.edges = true;
-    for (int p = 0; p < settings.width * settings.height; p++) {
-        double expected[4];
-        oracle_report report;
-        judged_pixel(&frame, p, expected, &report);
-        for (int k = 0; report.edge >= 1e-6 && k < 4; k++) {
-            measure_value(errors, frame.picture.values[4 * p + k], expected[k], 1,
-                          "pixel (%d, %d), value %d", p % settings.width, p / settings.width, k);
-        }
-    }
+    judged_compare(&frame, errors);
 cleanup:
     judged_end(&frame);
     glint_scene_free(&scene);
@@ -162,12 +154,7 @@ static glint_status judge_spreading_ball(trial *t, const spreading_ball *ball)
     static const double eye[3] = {0.3, 0.2, 2.2}, target[3] = {0, 0, 0};
     glint_scene scene = {0};
     judged frame = {0};
-    glint_settings settings = trial_settings(t);
-    settings.width = 16;
-    settings.height = 12;
-    settings.depth = 1;
-    settings.roughness = GLINT_ROUGHNESS_EXACT;
-    settings.facets = 1024;
+    const glint_settings settings = trial_lobe_settings(t, 1);
     const glint_camera camera = shape_camera(eye, target, 0.8, 0);
     glint_status status;
     TRY_OR(cleanup, status, leaning_ball(ball->material, &scene, t->error));

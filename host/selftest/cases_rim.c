@@ -227,11 +227,7 @@ static glint_status lobes_through_layers(trial *t)
     for (size_t i = 0; i < sizeof panes / sizeof *panes; i++) {
         glint_scene scene = {0};
         judged frame = {0};
-        glint_settings settings = trial_settings(t);
-        settings.width = 16;
-        settings.height = 12;
-        settings.depth = 4;
-        settings.roughness = GLINT_ROUGHNESS_EXACT;
+        const glint_settings settings = trial_lobe_settings(t, 4);
         glint_status status;
         TRY_OR(cleanup, status, make_floor(&panes[i], &scene, t->error));
         TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));

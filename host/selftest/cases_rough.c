@@ -89,12 +89,7 @@ static glint_status render_ball(trial *t, const rough_ball *ball)
     static const double eye[3] = {0.3, 0.4, 2.6}, target[3] = {0, 0, 0};
     glint_scene scene = {0};
     judged frame = {0};
-    glint_settings settings = trial_settings(t);
-    settings.width = 16;
-    settings.height = 12;
-    settings.depth = ball->depth;
-    settings.roughness = GLINT_ROUGHNESS_EXACT;
-    settings.facets = 1024;
+    const glint_settings settings = trial_lobe_settings(t, ball->depth);
     const glint_camera camera = shape_camera(eye, target, 0.75, 0);
     glint_status status;
     TRY_OR(cleanup, status, make_ball(ball, &scene, t->error));

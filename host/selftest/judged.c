@@ -33,6 +33,27 @@ void judged_pixel(const judged *of, int p, double expected[4], oracle_report *re
     oracle_pixel(&of->judge.scene, &of->view, pixel, expected, report);
 }
 
+// False for pixels where rounding may decide otherwise. They are left out.
+static bool is_decided(const oracle_report *report)
+{
+    return report->edge >= 1e-6 && report->critical > 1e-4 && report->threshold > 1e-4 &&
+           report->jump > 1e-4;
+}
+
+void judged_compare(const judged *of, glint_measure *errors)
+{
+    const int width = of->picture.width;
+    for (int p = 0; p < width * of->picture.height; p++) {
+        double expected[4];
+        oracle_report report;
+        judged_pixel(of, p, expected, &report);
+        for (int k = 0; is_decided(&report) && k < 4; k++) {
+            measure_value(errors, of->picture.values[4 * p + k], expected[k], 1,
+                          "pixel (%d, %d), value %d", p % width, p / width, k);
+        }
+    }
+}
+
 double judged_spread(const judged *of, int p, double start, const double expected[4])
 {
     judged moved = *of;

@@ -28,6 +28,10 @@ void judged_pixel(const judged *of, int p, double expected[4], oracle_report *re
 // their coordinates, on either side (oracle_view.start). Ill-conditioned pixels move far.
 double judged_spread(const judged *of, int p, double start, const double expected[4]);
 
+// Compares all values of the pixels in which no decision is close: an edge, the critical angle, the
+// least weight, a texture's jump.
+void judged_compare(const judged *of, glint_measure *errors);
+
 // The root mean square of all differences in R, G and B, over the mean.
 double judged_rmse(const judged *of);
 

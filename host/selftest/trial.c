@@ -298,6 +298,17 @@ glint_settings trial_settings(const trial *t)
     return settings;
 }
 
+glint_settings trial_lobe_settings(const trial *t, int depth)
+{
+    glint_settings settings = trial_settings(t);
+    settings.width = 16;
+    settings.height = 12;
+    settings.depth = depth;
+    settings.roughness = GLINT_ROUGHNESS_EXACT;
+    settings.facets = 1024;
+    return settings;
+}
+
 glint_renderer_inputs trial_inputs(const trial *t, const glint_scene *scene,
                                    const glint_environment *environment,
                                    const glint_settings *settings)

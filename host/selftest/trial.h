@@ -116,6 +116,8 @@ typedef struct trial_picture {
 
 // Settings of frames at the trial's width and precision: 64 × 48 pixels, min_weight 0.
 glint_settings trial_settings(const trial *t);
+// The same for lobes, which take the oracle long: 16 × 12 pixels, exact lobes, 1024 facets.
+glint_settings trial_lobe_settings(const trial *t, int depth);
 // The renderer's inputs on the trial's device. Borrows everything.
 glint_renderer_inputs trial_inputs(const trial *t, const glint_scene *scene,
                                    const glint_environment *environment,

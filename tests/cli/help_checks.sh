@@ -19,6 +19,29 @@ for command in render info bench; do
         check "glint $words is the help of $command" cmp stdout help.txt
     done
 done
+inputs='env env-layout ball-circle ball-distance ball-fov env-flip camera eye look-at up fov elevation fit animation variant material texture-size only without scene allow-large-images device help'
+# shellcheck disable=SC2046,SC2086 # lists of words
+{
+    check 'render --help tells every option' help_mentions render $inputs output exposure tone compression \
+        exr-type preview stats progress progress-fd frames turntable fps strict skip-existing shard max-error surroundings \
+        capture-size proxy env-at kernel-dir $(settings_of environment size frame device layers)
+    check 'info --help tells every option' help_mentions info $inputs json \
+        $(settings_of environment size frame device)
+}
+run render --help
+check 'the help of --max-error names the settings that it chooses' \
+    grep -q ' In place of --depth, --min-weight, .*--shading\. ' <(tr -s '\n ' ' ' <stdout)
+check 'devices --help tells every option' help_mentions devices json help
+for words in '' '--help' '-h' 'help'; do
+    # shellcheck disable=SC2086 # none or one word
+    run $words
+    check "glint $words lists the commands" grep -q '^  render ' stdout
+    check "glint $words succeeds quietly" test "$status" -eq 0 -a ! -s stderr
+done
+run --version
+check '--version prints one version' grep -qxE 'glint [0-9]+\.[0-9]+\.[0-9]+.*' stdout
+run render --help in/missing.gltf --depth 3
+check 'help is given before anything is looked at' test "$status" -eq 0
 run help --help
 check 'glint help --help lists the commands' grep -q '^  render ' stdout
 

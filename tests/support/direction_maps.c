@@ -28,6 +28,17 @@ glint_vec3 random_direction(void)
     }
 }
 
+glint_environment load_environment(const char *path, glint_layout layout, glint_warnings *warnings)
+{
+    glint_environment environment;
+    glint_error error = {0};
+    const glint_layout_request request = {.layout = layout};
+    if (glint_environment_load(path, &request, &environment, warnings, &error) != GLINT_OK) {
+        fail_msg("%s", error.message);
+    }
+    return environment;
+}
+
 void color_of(glint_vec3 d, double rgb[3])
 {
     double length = sqrt(d.x * d.x + d.y * d.y + d.z * d.z);

@@ -18,6 +18,9 @@
 double next_random(void);
 glint_vec3 random_direction(void);
 
+// Loads an environment. Fails the test, with the error, if it cannot.
+glint_environment load_environment(const char *path, glint_layout layout, glint_warnings *warnings);
+
 // The colour of a direction in these maps. The direction may have any length.
 void color_of(glint_vec3 d, double rgb[3]);
 
