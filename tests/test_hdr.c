@@ -259,6 +259,9 @@ static void exposure_and_correction_are_undone(void **state)
                                         "COLORCORR=1 2",
                                         "COLORCORR=1 0 1",
                                         "PRIMARIES=1 2",
+                                        "EXPOSURE=1e-60",
+                                        "EXPOSURE=1e60",
+                                        "EXPOSURE=1e300\nEXPOSURE=1e300",
                                         "EXPOSURE=1e-200\nEXPOSURE=1e-200"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         char lines[96];

@@ -74,9 +74,8 @@ static glint_status fail_unknown(const char *name, const char *nearest, glint_er
                           name, name);
     }
     if (is_file) {
-        return glint_fail(error, GLINT_USAGE,
-                          "%s is a file, no command (did you mean glint render %s -o OUT?)", name,
-                          name);
+        return glint_fail(error, GLINT_USAGE, "%s is %s (did you mean glint render %s -o OUT?)",
+                          name, is_there ? "a file, no command" : "no command", name);
     }
     return nearest != NULL ? glint_fail(error, GLINT_USAGE,
                                         "unknown command '%s' (did you mean %s?)", name, nearest)

@@ -5,8 +5,8 @@
 // older run-length code, and ignores EXPOSURE.
 #include "codec/hdr.h"
 
+#include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -92,7 +92,7 @@ static glint_status read_format(const glint_hdr_file *file, const char *format, 
                       file->path, format);
 }
 
-// Multiplies a product by a line's factors.
+// Multiplies a product by a line's factors. False if pixels would leave the range of floats.
 static bool multiply(const char *value, int count, double product[3])
 {
     double factors[3];
@@ -102,7 +102,7 @@ static bool multiply(const char *value, int count, double product[3])
     bool is_good = true;
     for (int c = 0; c < 3; c++) {
         product[c] *= factors[count == 3 ? c : 0];
-        is_good = is_good && product[c] > 0 && isfinite(1 / product[c]);
+        is_good = is_good && product[c] >= (double)FLT_MIN && product[c] <= (double)FLT_MAX;
     }
     return is_good;
 }

@@ -22,9 +22,9 @@ typedef struct glint_color_matrix {
 bool glint_primaries_are_rec709(const glint_primaries *primaries);
 
 // Makes the matrix that converts linear colours of these primaries to linear Rec. 709. Grey stays
-// grey: if the whites differ, Bradford's transform adapts the colours. But if
-// the primaries are the axes of CIE XYZ, the colours are tristimulus values, and nothing adapts
-// them: D65 becomes white. False if the primaries span no colours, or are not finite.
+// grey: if the whites differ, Bradford's transform adapts the colours. But if the primaries are the
+// axes of CIE XYZ, the colours are tristimulus values, and nothing adapts them: D65 becomes white.
+// False if the primaries span no colours, or are not finite.
 bool glint_primaries_to_rec709(const glint_primaries *primaries, glint_color_matrix *matrix);
 
 // Multiplies colours by the matrix, at every `stride` floats. Leaves a colour that is not finite:

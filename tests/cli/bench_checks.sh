@@ -139,6 +139,7 @@ run bench "$scene" --size 64x50 --rounds 1 --no-check --baseline in/before.json 
 check 'a baseline of another size: exit status 3' test "$status" -eq 3
 check 'and it is said how' grep -q 'settings.height is 48 there and 50 here' stderr
 check 'and nothing is written' test -z "$(ls -A out)"
+check 'and no report is spoken of' test "$(wc -l <stderr)" -eq 1
 clean
 
 # ---- wrong pictures -----------------------------------------------------------------------------
@@ -189,7 +190,8 @@ rm -f mirror mirror_sphere.bin
 
 # ---- runs that end early ------------------------------------------------------------------------
 
-# cut_off SIGNAL STATUS OUTPUT: ends a run after its first scene.
+# cut_off SIGNAL STATUS: ends a run after its first scene. On a busy machine the second may have ended,
+# too. Sets `scenes_there`, the number of scenes in the report.
 tiny=(--size 16x16 --rounds 1 --no-check --depth 1)
 cut_off() {
     "$glint" bench mirror glass mixed "${tiny[@]}" --json out/stats.json >stdout 2>stderr &
@@ -203,7 +205,8 @@ cut_off() {
     check "$1 after a scene: exit status $2" test $? -eq "$2"
     check "$1 after a scene: its JSON is there" stat_is mirror scenes 0 name
     check "$1 after a scene: with its times" stat_is 1 scenes 0 frames kernel count
-    check "$1 after a scene: and no others" test "$(grep -c '"check": {' out/stats.json)" -eq 1
+    scenes_there=$(grep -c '"check": {' out/stats.json)
+    check "$1 after a scene: and not all" test "$scenes_there" -lt 3
     check "$1 after a scene: marked as incomplete" stat_is false complete
     check "$1 after a scene: what is missing" stat_is mixed asked 2
     check "$1 after a scene: no temporary" test "$(ls -A out)" = stats.json
@@ -216,11 +219,11 @@ done
 check 'KILL after a scene: its child cleans up' no_temporaries
 clean
 cut_off INT 130
-check 'INT after a scene: said' grep -q '^glint: out/stats.json: it holds 1 of 3 scenes, and is marked' stderr
+check 'INT after a scene: said' grep -q "^glint: out/stats.json: it holds $scenes_there of 3 scenes, and is marked" stderr
 run bench mirror "${tiny[@]}" --baseline out/stats.json --margin 1000000
 check 'a baseline that ended early serves for its scenes' test "$status" -eq 0
 check 'a baseline that ended early: said' \
-    grep -q '^glint: warning: out/stats.json: its run ended early: it holds 1 of 3 scenes' stderr
+    grep -q "^glint: warning: out/stats.json: its run ended early: it holds $scenes_there of 3 scenes" stderr
 clean
 printf '{"asset": ' >in/broken.gltf
 run bench mirror in/broken.gltf "${tiny[@]}" --json -

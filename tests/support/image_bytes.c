@@ -86,8 +86,7 @@ image_bytes tiff_bytes(const tiff_recipe *recipe)
     return file;
 }
 
-// ---- JPEG: ITU-T T.81
-// -----------------------------------------------------------------------------
+// ---- JPEG: ITU-T T.81 ---------------------------------------------------------------------------
 
 // Bits that wait for a whole byte.
 typedef struct bit_writer {
@@ -177,18 +176,5 @@ image_bytes jpeg_bytes(const unsigned char *components, int count, int adobe)
     }
     put_bits(&bits, 0x7f, 7); // fills the last byte
     image_bytes_put_big(&file, 0xffd9, 2);
-    return file;
-}
-
-// ---- Radiance -----------------------------------------------------------------------------------
-
-image_bytes hdr_bytes(int width, int height, const unsigned char *rgbe)
-{
-    image_bytes file = {0};
-    char header[128];
-    snprintf(header, sizeof header, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", height,
-             width);
-    image_bytes_put(&file, header, strlen(header));
-    image_bytes_put(&file, rgbe, (size_t)(width * height) * 4);
     return file;
 }

@@ -50,7 +50,4 @@ image_bytes tiff_bytes(const tiff_recipe *recipe);
 // Adobe's marker names; −1: no marker.
 image_bytes jpeg_bytes(const unsigned char *components, int count, int adobe);
 
-// A Radiance picture without run-length coding, four bytes a pixel, of fewer than 8 columns.
-image_bytes hdr_bytes(int width, int height, const unsigned char *rgbe);
-
 #endif

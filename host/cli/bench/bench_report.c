@@ -78,18 +78,20 @@ static void put_comparisons(bench_report *report)
 // Writes the JSON. The pictures of --error stay in `document`, for the page.
 static glint_status write_json(bench_report *report, glint_error *error)
 {
+    if (report->json == NULL) {
+        return GLINT_OK;
+    }
     glint_json_put_flag(report->document, "complete", count_scenes(report) == report->count);
     if (report->baseline != NULL) {
         put_comparisons(report);
-    }
-    if (report->json == NULL) {
-        return GLINT_OK;
     }
     json_t *written = json_deep_copy(report->document);
     if (written != NULL) {
         glint_speed_error_drop_pictures(written);
     }
-    return glint_write_json(report->json, written, error);
+    TRY(glint_write_json(report->json, written, error));
+    report->written = count_scenes(report);
+    return GLINT_OK;
 }
 
 // ---- The report --------------------------------------------------------------------------------
@@ -140,11 +142,12 @@ glint_status bench_report_add(bench_report *report, json_t *entry, glint_error *
         print_entry(report, entry);
     }
     const glint_status status = judge_entry(report, entry, error);
+    if (status != GLINT_OK) {
+        json_decref(entry);
+        return status;
+    }
     (void)json_array_append_new(json_object_get(report->document, "scenes"), entry);
-    const bool is_last = count_scenes(report) == report->count;
-    return status != GLINT_OK || is_last || glint_is_stdout(report->json)
-               ? status
-               : write_json(report, error);
+    return glint_is_stdout(report->json) ? GLINT_OK : write_json(report, error);
 }
 
 static glint_status give_verdict(const bench_report *report, glint_error *error)
@@ -173,23 +176,24 @@ glint_status bench_report_finish(bench_report *report, glint_error *error)
     if (report->html != NULL) {
         TRY(glint_speed_error_page_write(report->html, report->document, error));
     }
-    TRY(write_json(report, error));
+    if (glint_is_stdout(report->json)) {
+        TRY(write_json(report, error));
+    }
     return give_verdict(report, error);
 }
 
 void bench_report_leave(bench_report *report)
 {
-    const size_t count = count_scenes(report);
-    if (report->json == NULL || count == 0) {
-        return;
-    }
     glint_error unused = {0};
-    if (glint_is_stdout(report->json)) {
+    if (glint_is_stdout(report->json) && count_scenes(report) > 0) {
         (void)write_json(report, &unused);
         glint_error_free(&unused);
     }
-    glint_say("%s: it holds %zu of %zu scenes, and is marked as incomplete",
-              prints_table(report) ? report->json : "the report", count, report->count);
+    if (report->written > 0 && report->written < report->count) {
+        glint_say("%s: it holds %zu of %zu scenes, and is marked as incomplete",
+                  prints_table(report) ? report->json : "the report", report->written,
+                  report->count);
+    }
 }
 
 void bench_report_free(bench_report *report)

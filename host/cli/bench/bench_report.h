@@ -25,19 +25,21 @@ typedef struct bench_report {
     json_t *baseline;               // NULL: none
     json_t *comparisons;            // a list, one entry per scene with a correct picture
     size_t wrong, compared, slower; // numbers of scenes
+    size_t written;                 // scenes in the JSON file
 } bench_report;
 
 // Reads the baseline, and takes over `document`, whose list of scenes is empty. Errors:
 // GLINT_BAD_INPUT.
 glint_status bench_report_begin(bench_report *report, json_t *document, glint_error *error);
 
-// Adds a scene's entry and prints it. Takes over the reference. Writes the report to its file,
-// marked as incomplete unless this is the last scene, so that a run that is cut off leaves what was
-// measured. Errors: as glint_baseline_compare, GLINT_OUTPUT_FAILED.
+// Prints a scene's entry, and adds it if it can be compared with the baseline. Takes over the
+// reference. Writes the JSON to its file, marked as incomplete unless this is the last scene, so
+// that a run that is cut off leaves what was measured. Errors: as glint_baseline_compare,
+// GLINT_OUTPUT_FAILED.
 glint_status bench_report_add(bench_report *report, json_t *entry, glint_error *error);
 
-// Writes and judges the finished report. Errors: GLINT_OUTPUT_FAILED, GLINT_MISMATCH,
-// GLINT_BAD_INPUT.
+// Writes the page, prints the JSON if it goes to stdout, and judges the finished report. Errors:
+// GLINT_OUTPUT_FAILED, GLINT_MISMATCH, GLINT_BAD_INPUT.
 glint_status bench_report_finish(bench_report *report, glint_error *error);
 
 // Says which scenes the report of a run holds that ended early. Prints it if it goes to stdout.

@@ -139,7 +139,7 @@ static const number *frame_number(const number *numbers, size_t count, const ima
 
 typedef struct labelled {
     const char *name;
-    char *label; // NULL: the name, not a number
+    char *label; // owned
     bool is_shared;
 } labelled;
 
