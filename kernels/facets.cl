@@ -55,17 +55,6 @@ static inline real chosen_of(const scalar values[FACET_CHOICES], lanes_int met)
     return value;
 }
 
-static inline mask are_faceted(const surface *s)
-{
-    const lane_int glass = GLINT_MATERIAL_SOLID | GLINT_MATERIAL_THIN;
-    mask faceted = (s->roughness >= (scalar)GLINT_ROUGHNESS_LEAST) &
-                   ((s->flags & glass) != (lane_int)0);
-#if GLINT_ALPHA
-    faceted = faceted & (s->coverage > R(0.0));
-#endif
-    return faceted;
-}
-
 // Axes at right angles to the normals. The first is as near as possible to the image's right.
 static inline void facet_axes(const glint_frame_record *frame, real3 normal, real3 *first,
                               real3 *second)

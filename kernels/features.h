@@ -96,7 +96,7 @@
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS, SWITCHED,   \
             EVERYTHING)                                                                            \
     FEATURE(BLEND, "the lecture's blend of paint and mirror", GLINT_GEOMETRY, 0, SWITCHED, PATHS)  \
-    FEATURE(LIGHTS, "punctual lights shine on matte paint, and cast shadows",                      \
+    FEATURE(LIGHTS, "punctual lights shine on paint and rough surfaces, and cast shadows",         \
             GLINT_PAINT || GLINT_BLEND || GLINT_ROUGH,                                             \
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, SWITCHED, EVERYTHING)      \
     FEATURE(UNLIT, "unlit surfaces end a path with their colour", GLINT_GEOMETRY, 0, IDLE, PATHS)  \

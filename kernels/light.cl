@@ -1,4 +1,4 @@
-// Reads directions from the frame, and finds the light that the environment sends to surfaces.
+// Finds the light that the environment sends to surfaces.
 
 // If the environment is turned by the angle a about +Y, it is looked up along d turned by −a.
 static inline real3 turn_into_environment(const glint_frame_record *frame, real3 d)

@@ -39,9 +39,9 @@ static inline wanted_lobe lobe_of_sheen(const surface *s, const scattering *out,
 {
     const real3 none = real3_of(real_of(0), real_of(0), real_of(0));
     const real weight = largest3(out->sheen);
-    const lobe_parts albedo = {out->sheen_albedo, real_of(0)};
+    const lobe_parts unused = {real_of(0), real_of(0)}; // sheen is not scaled
     const wanted_lobe w = {met & (weight > R(0.0)), shape_of_sheen(s), weight, none, none,
-                           out->sheen, none, albedo};
+                           out->sheen, none, unused};
     return w;
 }
 #endif
@@ -59,9 +59,10 @@ static inline real ratio_of(real a, real b)
 // light, which is right for the light alone.
 static inline void scale_to_albedo(const lobe *l, const lobe_parts *albedo, lobe_light *light)
 {
-    const real limit = R(0.4) - SMALLER(l->alpha, real_of(R(0.1)));
-    const real over = SMALLER((limit - l->cosine) * R(7.0), real_of(1));
-    const real share = SELECT(slanted_below(l, limit), over, real_of(0));
+    if (!l->is_scaled) {
+        return;
+    }
+    const real share = scaled_share(l);
     const real base = ratio_of(albedo->base, light->white_base);
     const real edge = ratio_of(albedo->edge, light->white_edge);
     light->base = scale(light->base, fused(share, base - R(1.0), real_of(1)));

@@ -18,8 +18,7 @@ typedef struct scattering {
     lobe_parts albedo;            // what lobe_light's two parts are if all is white
 #endif
 #if GLINT_SHEEN
-    real3 sheen;       // factor of the sheen's light
-    real sheen_albedo; // this light if all is white
+    real3 sheen; // factor of the sheen's light
 #endif
 #if GLINT_CLEARCOAT
     mask coat_apart;  // `transmitted` holds the coat's reflection; else `reflected` has it
@@ -94,17 +93,15 @@ static inline real3 specular_reflectance(const scene_buffers *scene, const surfa
     real weight = real_of(1);
 #if GLINT_SPECULAR
     if (HAS(SPECULAR)) {
+        // Fresnel's term of a high index falls below F0.
+        const mask below = reflectance < f0;
         real way = (reflectance - f0) / (R(1.0) - f0);
-        // Rounding must not make it negative. A high index may.
-        way = SELECT(at->eta < HIGH_INDEX_ETA, way, LARGER(way, real_of(0)));
-        way = SELECT(share < R(1.0), way, edge); // F0 may be 1
+        way = SELECT(share < R(1.0), way, edge); // 1 − F0 has few digits
         const real3 from = specular_at_right_angles(scene, s, f0);
         const real3 rest = real3_of(R(1.0) - from.x, R(1.0) - from.y, R(1.0) - from.z);
         weight = s->specular;
-        reflected = scale(scale_add(rest, way, from), weight);
-        const real zero = real_of(0);
-        reflected = real3_of(LARGER(reflected.x, zero), LARGER(reflected.y, zero),
-                             LARGER(reflected.z, zero));
+        const real3 less = scale(from, reflectance / SELECT(below, f0, real_of(1)));
+        reflected = scale(select3(below, less, scale_add(rest, way, from)), weight);
 #if GLINT_IRIDESCENCE
         const real sign = SELECT(root < R(0.0), real_of(-1), real_of(1));
         roots = scale(film_roots(from), sign);
@@ -217,21 +214,6 @@ static inline void scatter_glass(const scene_buffers *scene, const surface *s, r
 }
 
 #if GLINT_ROUGH
-// Rule 11: finds the surfaces that reflect lobes.
-static inline mask are_rough(const scene_buffers *scene, const surface *s)
-{
-    if (!HAS(ROUGH)) {
-        return mask_none();
-    }
-    const lane_int smooth = GLINT_MATERIAL_SOLID | GLINT_MATERIAL_THIN | GLINT_MATERIAL_BLEND |
-                            GLINT_MATERIAL_UNLIT;
-    mask rough = s->roughness >= (scalar)GLINT_ROUGHNESS_LEAST;
-#if GLINT_BRUSHED
-    rough = rough | (s->anisotropy > R(0.0));
-#endif
-    return rough & ((s->flags & smooth) == (lane_int)0);
-}
-
 // The share of a coat's reflection that comes by a path.
 static inline real share_of_path(real roughness)
 {
@@ -384,7 +366,6 @@ static inline void scatter_from_sheen(const scene_buffers *scene, const surface 
                            (R(1.0) / (R(1.0) - narrow));
     const lobe_parts albedo =
         read_albedo(scene->cells.values + GLINT_ALBEDO_VALUES, roughness, sqrt(s->cosine), there);
-    out->sheen_albedo = albedo.base;
     const real left = LARGER(fused(-most, albedo.base, real_of(1)), real_of(0));
     out->sheen = zero;
     leave_share(SELECT(there, left, real_of(1)), out);

@@ -1,4 +1,4 @@
-// Makes primary rays: where they start, their directions, and the paths that begin with them.
+// Makes primary rays, and the paths that begin with them.
 
 // A packet of primary rays: the pixels' samples that they belong to, and their hits.
 typedef struct primary {

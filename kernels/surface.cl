@@ -296,27 +296,54 @@ static inline real3 brush_direction(const scene_buffers *scene, const closest *h
 }
 #endif
 
-// Finds surfaces that send light in many directions: lobes, sheen, facets.
-static inline mask spread_light(const scene_buffers *scene, const surface *s)
+#if GLINT_ROUGH
+// Rule 11: finds the surfaces that reflect lobes.
+static inline mask are_rough(const scene_buffers *scene, const surface *s)
+{
+    if (!HAS(ROUGH)) {
+        return mask_none();
+    }
+    const lane_int smooth = GLINT_MATERIAL_SOLID | GLINT_MATERIAL_THIN | GLINT_MATERIAL_BLEND |
+                            GLINT_MATERIAL_UNLIT;
+    mask rough = s->roughness >= (scalar)GLINT_ROUGHNESS_LEAST;
+#if GLINT_BRUSHED
+    rough = rough | (s->anisotropy > R(0.0));
+#endif
+    return rough & ((s->flags & smooth) == (lane_int)0);
+}
+#endif
+
+#if GLINT_FACETS
+// Rule 12: finds the surfaces that have facets.
+static inline mask are_faceted(const surface *s)
 {
     const lane_int glass = GLINT_MATERIAL_SOLID | GLINT_MATERIAL_THIN;
-    const lane_int others = glass | GLINT_MATERIAL_BLEND | GLINT_MATERIAL_UNLIT;
-    const mask rough = s->roughness >= (scalar)GLINT_ROUGHNESS_LEAST;
+    mask faceted = (s->roughness >= (scalar)GLINT_ROUGHNESS_LEAST) &
+                   ((s->flags & glass) != (lane_int)0);
+#if GLINT_ALPHA
+    faceted = faceted & (s->coverage > R(0.0));
+#endif
+    return faceted;
+}
+#endif
+
+// Finds surfaces that send light in many directions: lobes, sheen, facets.
+static inline mask do_spread(const scene_buffers *scene, const surface *s)
+{
     mask spread = mask_none();
 #if GLINT_ROUGH
-    if (HAS(ROUGH)) {
-        mask lobes = rough;
-#if GLINT_BRUSHED
-        lobes = lobes | (s->anisotropy > R(0.0));
-#endif
+    spread = are_rough(scene, s);
 #if GLINT_SHEEN
-        lobes = HAS(SHEEN) ? lobes | (largest3(s->sheen_color) > R(0.0)) : lobes;
-#endif
-        spread = lobes & ((s->flags & others) == (lane_int)0);
+    const lane_int others = GLINT_MATERIAL_SOLID | GLINT_MATERIAL_THIN | GLINT_MATERIAL_BLEND |
+                            GLINT_MATERIAL_UNLIT;
+    if (HAS(SHEEN)) {
+        spread = spread | ((largest3(s->sheen_color) > R(0.0)) &
+                           ((s->flags & others) == (lane_int)0));
     }
 #endif
+#endif
 #if GLINT_FACETS
-    spread = HAS(FACETS) ? spread | (rough & ((s->flags & glass) != (lane_int)0)) : spread;
+    spread = HAS(FACETS) ? spread | are_faceted(s) : spread;
 #endif
     return spread;
 }
@@ -340,7 +367,7 @@ static inline void orient_lobes(const scene_buffers *scene, const closest *hit, 
         s->anisotropy = s->along_cosine = real_of(0);
     }
 #endif
-    const mask folds = away & spread_light(scene, s);
+    const mask folds = away & do_spread(scene, s);
     s->normal = select3(folds, folded_to_viewer(s->lit_normal, v), s->normal);
 #if GLINT_BRUSHED
     if (HAS(BRUSHED)) {

@@ -317,7 +317,8 @@ static void paint_of_high_index_has_schlicks_edge(void **state)
                 double w = f0 < 1.0 ? (f - f0) / (1.0 - f0) : 0.0;
                 w += shares[i] * (fifth - w);
                 double from = colored ? 0.25 * f0 : f0;
-                double seen = from + (1.0 - from) * w;
+                double seen =
+                    w < 0.0 ? from * (1.0 + w * (1.0 - f0) / f0) : from + (1.0 - from) * w;
                 assert_close(rgb[0], colored ? 0.75 * seen : seen, 1e-9);
             }
         }

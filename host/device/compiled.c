@@ -98,8 +98,11 @@ glint_status glint_programs_check_cache(const struct glint_device *device, glint
                           "POCL_KERNEL_CACHE=0: PoCL keeps no kernels (unset it)");
     }
     if (fault != NULL) {
-        return glint_fail(error, GLINT_OUTPUT_FAILED,
-                          "%s (let POCL_CACHE_DIR name a folder that can be written)", fault);
+        return glint_fail(
+            error, GLINT_OUTPUT_FAILED,
+            "%s (let POCL_CACHE_DIR name another folder, with a short name, that can be "
+            "written)",
+            fault);
     }
     return GLINT_OK;
 }

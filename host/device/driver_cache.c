@@ -227,7 +227,7 @@ static void take_temporary(void)
     snprintf(note, sizeof note, "%.700s%s", fault,
              is_made ? "; kernels are compiled for this run alone (" FOLDER_NAME
                        " names another folder)"
-                     : ", and neither TMPDIR nor /tmp (let " FOLDER_NAME
+                     : "; TMPDIR and /tmp cannot be used either (let " FOLDER_NAME
                        " name a folder that can be written)");
     is_lost = !is_made;
     if (is_made) {

@@ -78,11 +78,12 @@ static vector mixed_dielectric(const surface *s, double here, double there, doub
     double f0 = oracle_fresnel(1.0, here, there);
     double exact = (oracle_fresnel(s->cosine, here, there) - f0) / (1.0 - f0);
     double way = schlick * pow(1.0 - s->cosine, 5.0);
-    if (schlick < 1.0) // else F0 may be 1
+    if (schlick < 1.0) // else 1 − F0 may have few digits
         way += (1.0 - schlick) * exact;
     vector reflected = {{0.0, 0.0, 0.0}}, from = oracle_tinted(s, f0);
     for (int i = 0; i < 3; i++)
-        reflected.at[i] = s->specular * fmax(0.0, from.at[i] + (1.0 - from.at[i]) * way);
+        reflected.at[i] = s->specular * (way < 0.0 ? from.at[i] * (f0 + (1.0 - f0) * way) / f0
+                                                   : from.at[i] + (1.0 - from.at[i]) * way);
     double sine = sqrt(fmax(0.0, 1.0 - s->cosine * s->cosine));
     bool total = here * sine >= there || here * sine >= s->material->film_ior;
     if (s->film == 0.0 || total)

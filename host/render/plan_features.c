@@ -77,7 +77,7 @@ static bool is_coat_apart(const glint_material *material, const glint_lobes *lob
                           bool heeds_roughness)
 {
     const bool below = lobes->metal || lobes->gloss || (lobes->rough_path && heeds_roughness);
-    const bool lobe = heeds_roughness && (lobes->rough || lobes->rough_clearcoat);
+    const bool lobe = heeds_roughness && (lobes->rough || lobes->sheen || lobes->rough_clearcoat);
     const bool bends = glint_material_normal_texture(material)->image != 0;
     return lobes->clearcoat && below && (lobe || bends);
 }
@@ -308,8 +308,8 @@ static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
     }
 }
 
-// Decides OVERLAPS: solids touch or overlap, or may do so later, or have priorities and nest. It is
-// also what knows solids of several materials.
+// Decides OVERLAPS: solids touch or overlap, or may do so later, or have priorities and nest. It
+// also handles solids of several materials.
 static void decide_overlaps(const glint_plan_inputs *in, bool heeded, glint_plan *plan)
 {
     const glint_solids *solids = in->solids;

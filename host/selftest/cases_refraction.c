@@ -286,7 +286,8 @@ static double expected_of(const high_index *of, double cosine)
     const long double f = (1 - e) * (long double)reflectance(cosine, (double)(1 / n)) + e * schlick;
     const long double from = fminl((long double)(float)of->color * f0, 1);
     const long double w = f0 < 1 ? (f - f0) / (1 - f0) : powl(1 - (long double)cosine, 5);
-    return (double)((long double)(float)of->specular * fmaxl(from + (1 - from) * w, 0));
+    return (double)((long double)(float)of->specular *
+                    (w < 0 ? from * f / f0 : from + (1 - from) * w));
 }
 
 static glint_status measure_high_index(trial *t, const high_index *of, glint_measure *errors)
@@ -332,10 +333,10 @@ cleanup:
 }
 
 // Fresnel's term errs by 16u (see fresnel_at_its_ends). The colour divides this by 1 − F0, which is
-// at least a half up to index 6, and below that Schlick's term alone is left.
+// 0.49 or more up to index 6. Above it only Schlick's term is left.
 static glint_status high_indices(trial *t)
 {
-    static const double iors[] = {1.5, 2.42, 3.7, 3.8, 4.5, 5.5, 6, 8, 1000, 1e20, 3e38};
+    static const double iors[] = {1.5, 2.42, 3.7, 3.8, 4.5, 5.5, 6, 8, 1000, GLINT_IOR_INFINITE};
     glint_measure *paint = trial_error(t, "what paint reflects", "u", 48);
     glint_measure *glass = trial_error(t, "what glass reflects, index up to 5.5", "u", 48);
     for (size_t i = 0; i < sizeof iors / sizeof *iors; i++) {
