@@ -93,9 +93,9 @@ static const struct {
     {"\"extensions\":{\"KHR_materials_ior\":{\"ior\":0},\"KHR_materials_dispersion\":{"
      "\"dispersion\":1}}",
      EXTENSION("ior", "\"ior\":1e5"), NULL},
-    {EXTENSION("volume", "\"attenuationDistance\":null"), "",
+    {EXTENSION("volume", "\"attenuationDistance\":null"), "", NULL},
+    {EXTENSION("volume", "\"attenuationDistance\":0"), "",
      "attenuationDistance is no distance (it counts as infinite)"},
-    {EXTENSION("volume", "\"attenuationDistance\":0"), "", "attenuationDistance is no distance"},
     {EXTENSION("volume", "\"attenuationDistance\":-2"), "", "attenuationDistance is no distance"},
     {EXTENSION("volume", "\"attenuationDistance\":1e300"), "", NULL},
     {EXTENSION("volume", "\"attenuationColor\":[1,1,1.5]"), "", "attenuationColor" NEAREST},
@@ -253,6 +253,37 @@ static const unsigned char texel[] = {
     0x00, 0x90, 0x77, 0x53, 0xde, 0x00, 0x00, 0x00, 0x0c, 0x49, 0x44, 0x41, 0x54, 0x78,
     0x9c, 0x63, 0x68, 0x68, 0x68, 0x00, 0x00, 0x03, 0x04, 0x01, 0x81, 0x4b, 0xd3, 0xd2,
     0x10, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+
+// An index may be written as 1.0. Only the image needs its buffer.
+static void an_image_may_lie_in_a_buffer_of_its_own(void **state)
+{
+    static const char *const views[] = {"1", "1.0"};
+    for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
+        char text[2048];
+        snprintf(
+            text, sizeof text,
+            "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":36,\"uri\":\"data:;"
+            "base64,"
+            "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"},{\"byteLength\":%zu,\"uri\":\""
+            "texel.bin\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":1,"
+            "\"byteLength\":%zu}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,"
+            "\"count\":3,"
+            "\"type\":\"VEC3\"}],\"images\":[{\"bufferView\":%s,\"mimeType\":\"image/png\"}],"
+            "\"textures\":[{\"source\":0}],\"materials\":[{" COLORED
+            "}],\"meshes\":[{\"primitives\":"
+            "[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],\"nodes\":[{\"mesh\":0}]"
+            "," ONE_SCENE "}",
+            sizeof texel, sizeof texel, views[i]);
+        write_bytes(*state, "texel.bin", texel, sizeof texel);
+        glint_scene scene;
+        glint_warnings warnings = {0};
+        assert_int_equal(load_text(*state, text, &scene, &warnings, NULL), GLINT_OK);
+        assert_said(&warnings, NULL, views[i]);
+        assert_int_equal(scene.textures->count, 1);
+        assert_int_equal(scene.textures->textures[0].width, 1);
+        glint_scene_free(&scene);
+    }
+}
 
 static void backslashes_are_tried_as_slashes(void **state)
 {
@@ -450,6 +481,7 @@ int main(void)
         TEST(the_nearest_number_counts),
         TEST(a_texture_that_cannot_be_shown_is_left_out),
         TEST(no_uri_of_an_image_refuses_the_file),
+        TEST(an_image_may_lie_in_a_buffer_of_its_own),
         TEST(backslashes_are_tried_as_slashes),
         TEST(one_line_tells_of_all_missing_images),
         TEST(other_maps_stay),

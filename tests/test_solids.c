@@ -2,12 +2,15 @@
 #include "scene/solids.h"
 
 #include "support/bodies.h"
+#include "support/gltf_text.h"
+#include "support/scratch.h"
 
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -18,11 +21,16 @@ typedef struct found {
     glint_solids solids;
 } found;
 
+static void analyse(found *f)
+{
+    assert_int_equal(glint_topology_find(&f->scene, &f->topology, NULL), GLINT_OK);
+    assert_int_equal(glint_solids_find(&f->scene, &f->topology, &f->solids, NULL), GLINT_OK);
+}
+
 static found find(const bodies *all, double turn)
 {
     found f = {.scene = bodies_scene(all, turn, false)};
-    assert_int_equal(glint_topology_find(&f.scene, &f.topology, NULL), GLINT_OK);
-    assert_int_equal(glint_solids_find(&f.scene, &f.topology, &f.solids, NULL), GLINT_OK);
+    analyse(&f);
     return f;
 }
 
@@ -202,12 +210,90 @@ static void a_hollow_belongs_to_its_solid(void **state)
     let_go(&f);
 }
 
+// A bead of a millimetre on a floor of a kilometre, and a hollow in it.
+static void a_hollow_of_a_small_part_is_found(void **state)
+{
+    struct {
+        tetrahedron solid;
+        uint16_t turned[12];
+    } bytes = {.solid = the_tetrahedron};
+    for (int i = 0; i < 12; i++) {
+        bytes.turned[i] = the_tetrahedron.indices[11 - i];
+    }
+#define SHORTS "\"componentType\":5123,\"count\":12,\"type\":\"SCALAR\"}"
+#define GLASS_OF(material, indices)                                                                \
+    "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":" indices                       \
+    ",\"material\":" material "}]}"
+#define GLASSY(name)                                                                               \
+    "{\"name\":\"" name "\",\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":{"      \
+    "\"KHR_materials_transmission\":{\"transmissionFactor\":1},"                                   \
+    "\"KHR_materials_volume\":{\"thicknessFactor\":1}}}"
+    static const char rest[] =
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},"
+        "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":24},"
+        "{\"buffer\":0,\"byteOffset\":120,\"byteLength\":24}],\"accessors\":["
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
+        "{\"bufferView\":1," SHORTS ",{\"bufferView\":2," SHORTS "],"
+        "\"materials\":[" GLASSY("solid") "," GLASSY(
+            "hollow") "],\"meshes\":["
+                      "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}"
+                      "," GLASS_OF("0", "1") "," GLASS_OF(
+                          "1", "2") "],\"nodes\":["
+                                    "{\"mesh\":0,\"scale\":[1000,1e-9,1000]},"
+                                    "{\"mesh\":1,\"scale\":[1e-3,1e-3,1e-3],\"translation\":[700.1,"
+                                    "0.3,11.7]},"
+                                    "{\"mesh\":2,\"scale\":[1e-4,1e-4,1e-4],\"translation\":[700."
+                                    "1001,0.3001,11.7001]}],"
+                                    "\"scenes\":[{\"nodes\":[0,1,2]}]";
+    found f = {.scene = load_rest(*state, &bytes, sizeof bytes, rest)};
+    analyse(&f);
+    assert_int_equal(f.solids.component_count, 2);
+    assert_int_equal(f.solids.faults.inside_out.count, 0);
+    assert_int_equal(f.solids.of_triangle[4].medium, f.solids.of_triangle[8].medium);
+    assert_true(f.topology.components[2].volume < 0);
+    let_go(&f);
+}
+
+// A cube of glass with many bubbles.
+static void many_hollows_are_found(void **state)
+{
+    (void)state;
+    enum { ACROSS = 21, BUBBLES = ACROSS * ACROSS * ACROSS, OF_CUBE = 12 };
+    const size_t count = (size_t)OF_CUBE * (BUBBLES + 1);
+    const bodies cube = {.what = "a cube", .of = {{{-1, -1, -1}, {1, 1, 1}, GLASS, 1, 1}}};
+    found f = {.scene = bodies_scene(&cube, 0, false)};
+    assert_int_equal(f.scene.triangle_count, OF_CUBE);
+    free(f.scene.normals);
+    f.scene.normals = NULL;
+    f.scene.positions = realloc(f.scene.positions, 9 * count * sizeof *f.scene.positions);
+    f.scene.material_of = realloc(f.scene.material_of, count * sizeof *f.scene.material_of);
+    assert_true(f.scene.positions != NULL && f.scene.material_of != NULL);
+    for (size_t t = OF_CUBE; t < count; t++) {
+        const size_t bubble = t / OF_CUBE - 1;
+        const size_t place[3] = {bubble % ACROSS, bubble / ACROSS % ACROSS,
+                                 bubble / ACROSS / ACROSS};
+        for (size_t i = 0; i < 9; i++) { // corners in the other order
+            const float corner = f.scene.positions[9 * (t % OF_CUBE) + (2 - i / 3) * 3 + i % 3];
+            f.scene.positions[9 * t + i] =
+                0.02F * corner + 1.8F * ((float)place[i % 3] / (ACROSS - 1) - 0.5F);
+        }
+        f.scene.material_of[t] = f.scene.material_of[0];
+    }
+    f.scene.triangle_count = f.scene.instances[0].triangle_count = count;
+    analyse(&f);
+    assert_int_equal(f.solids.component_count, BUBBLES + 1);
+    assert_int_equal(f.solids.faults.inside_out.count, 0);
+    let_go(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contacts_are_found),
         cmocka_unit_test(the_lesser_solid_is_there_unless_the_file_says_else),
         cmocka_unit_test(a_hollow_belongs_to_its_solid),
+        cmocka_unit_test(a_hollow_of_a_small_part_is_found),
+        cmocka_unit_test(many_hollows_are_found),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

@@ -152,6 +152,7 @@ static glint_vec3 apex_of(const glint_components *all, size_t i)
     return ends > 0 ? glint_vec3_scale(sum, 1 / ends) : low;
 }
 
+// Adds up the volume. Its error follows from the coordinates, which count from the part's anchor.
 static void measure_volume(glint_components *all, size_t i)
 {
     const glint_welding *weld = all->weld;
@@ -160,6 +161,9 @@ static void measure_volume(glint_components *all, size_t i)
     double size = 0;
     for (uint32_t k = all->first[i]; k < all->first[i + 1]; k++) {
         const uint32_t corner = 3 * all->triangles[k];
+        for (uint32_t n = 0; n < 9; n++) {
+            size = fmax(size, fabs((double)glint_position_at(weld, corner + n / 3)[n % 3]));
+        }
         const glint_vec3 p0 = glint_vec3_subtract(position_of(weld, corner), apex);
         const glint_vec3 p1 = glint_vec3_subtract(position_of(weld, corner + 1), apex);
         const glint_vec3 p2 = glint_vec3_subtract(position_of(weld, corner + 2), apex);
@@ -167,9 +171,6 @@ static void measure_volume(glint_components *all, size_t i)
         area += glint_vec3_length(
                     glint_vec3_cross(glint_vec3_subtract(p1, p0), glint_vec3_subtract(p2, p0))) /
                 2;
-    }
-    for (int k = 0; k < 3; k++) {
-        size = fmax(size, fmax(fabs((double)all->of[i].low[k]), fabs((double)all->of[i].high[k])));
     }
     all->of[i].volume_error = GLINT_POSITION_ROUNDINGS * 0x1p-24 * size * area;
 }

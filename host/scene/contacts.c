@@ -147,7 +147,11 @@ static void note_edge(search *s, uint32_t plane, uint32_t body, const glint_face
                       const glint_face *other)
 {
     side_of_edge side = {.plane = plane, .body = body};
-    if (s->side_count == SIDES_MAX || !glint_edge_on_face(f, other, &side.edge)) {
+    if (!glint_edge_on_face(f, other, &side.edge)) {
+        return;
+    }
+    if (s->side_count == SIDES_MAX) {
+        s->pairs = 0;
         return;
     }
     if (s->side_count == s->side_capacity) {

@@ -42,7 +42,7 @@ void report(const Load &load, glint_scene &scene, glint_warnings *warnings)
     glint_material_overrides_warn(&load.overrides, scene.materials, scene.material_count, path,
                                   warnings);
     // Who hides all meshes means it.
-    if (scene.triangle_count == 0 && !load.hides_any && load.model.hidden_nodes.empty()) {
+    if (scene.triangle_count == 0 && !load.hides_any) {
         glint_warn(warnings, "%s: the scene has no triangles, only the environment will be seen",
                    path);
     }

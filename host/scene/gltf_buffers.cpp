@@ -2,6 +2,7 @@
 #include "scene/gltf_buffers.hpp"
 
 #include "scene/gltf_meshopt.hpp"
+#include "scene/gltf_texture.hpp"
 
 #include <algorithm>
 #include <map>
@@ -50,10 +51,12 @@ class Needs
         for (const PackedView &packed : model.packed) {
             of_[packed.buffer] = Need::shapes;
         }
-        for (const json &image : objects_of(root, "images")) {
-            const json *view = member(image, "bufferView");
-            add(view != nullptr && view->is_number_unsigned() ? view->get<std::ptrdiff_t>() : -1,
-                Need::images);
+        for (std::size_t i = 0; i < objects_of(root, "images").size(); i++) {
+            try {
+                add(view_of_image(root, i), Need::images);
+            } catch (const refusal &) {
+                continue; // who reads the image says so
+            }
         }
     }
 

@@ -148,7 +148,12 @@ glint_treatment treatment_of(const std::string &name)
 
 void survey_extensions(const json &object, Holder holder, const std::string &where, Tally &tally)
 {
-    const json *found = member(object, "extensions");
+    const json *found = nullptr;
+    try {
+        found = optional_object(object, Place(), "extensions");
+    } catch (const refusal &) {
+        tally.add("its extensions are no object (they are left out)", where);
+    }
     if (found == nullptr) {
         return;
     }

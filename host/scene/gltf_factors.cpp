@@ -146,13 +146,11 @@ void read_volume(const Numbers &from, glint_material &result)
 {
     result.thickness = from.number("thicknessFactor", positive, 0);
     from.color("attenuationColor", 3, share, result.attenuation_color);
-    const auto distance = from.object().find("attenuationDistance");
-    if (distance == from.object().end()) {
+    const json *distance = member(from.object(), "attenuationDistance");
+    if (distance == nullptr) { // or null: JSON cannot store infinity
         return;
     }
-    // JSON cannot store infinity: some exporters write null for it.
-    const double value =
-        distance->is_null() ? 0 : number_of(*distance, from.place() / "attenuationDistance");
+    const double value = number_of(*distance, from.place() / "attenuationDistance");
     if (!(value > 0)) {
         from.note("attenuationDistance", "is no distance (it counts as infinite)");
         return;

@@ -29,11 +29,14 @@ double read_positive(const json &object, const Place &place, const char *key, do
     return number;
 }
 
-std::vector<double> read_color(const json &light, const Place &light_place)
+std::vector<double> read_color(const json &light, const Place &light_place, Notes &notes)
 {
     std::vector<double> color = {1, 1, 1};
     const Place place = light_place / "color";
     const json &found = optional_array(light, light_place, "color");
+    if (member(light, "color") != nullptr && found.size() != color.size()) {
+        notes.emplace_back("color has not 3 numbers");
+    }
     for (std::size_t i = 0; i < std::min(found.size(), color.size()); i++) {
         color[i] = number_of(found[i], place[i]);
         if (color[i] < 0) {
@@ -84,7 +87,7 @@ tinygltf::Light read_light(const json &source, const Place &place, Notes &notes)
         refuse(place / "type", "type " + in_quotes(type) + " is none (directional, point or spot)");
     }
     light.name = name_of(source);
-    light.color = read_color(source, place);
+    light.color = read_color(source, place, notes);
     light.intensity = read_positive(source, place, "intensity", 1);
     light.range = read_range(source, place, notes);
     if (type == "spot") {
@@ -137,9 +140,15 @@ int read_node_light(const json &node, const Place &place, std::size_t index, Mod
     try {
         const json *extension = extension_of(node, place, name_of_extension);
         const Place at = place / "extensions" / name_of_extension;
-        return extension == nullptr ? -1
-                                    : static_cast<int>(optional_index(
-                                          *extension, at, "light", model.lights.size(), "light"));
+        if (extension == nullptr) {
+            return -1;
+        }
+        const auto light =
+            static_cast<int>(optional_index(*extension, at, "light", model.lights.size(), "light"));
+        if (light < 0) {
+            refuse(at, "it names no light");
+        }
+        return light;
     } catch (const refusal &fault) {
         model.node_notes[index].push_back(fault.cause() + "; the node has no light");
         return -1;

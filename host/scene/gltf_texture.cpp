@@ -175,8 +175,7 @@ ImageData find_image(const Document &document, const Model &model, std::size_t i
     const json &image = objects_of(document.root, "images")[index];
     const Place place = (Place() / "images")[index];
     const json *uri = member(image, "uri");
-    const std::ptrdiff_t view = optional_index(
-        image, place, "bufferView", objects_of(document.root, "bufferViews").size(), "bufferView");
+    const std::ptrdiff_t view = view_of_image(document.root, index);
     ImageData data;
     if (uri != nullptr && uri->is_string() && is_data_uri(uri->get_ref<const std::string &>())) {
         data.decoded = decode_data_uri(uri->get_ref<const std::string &>(), place / "uri");
@@ -210,7 +209,7 @@ struct Work {
     int largest;
     int threads; // threads per image
     std::vector<glint_texture_levels> levels;
-    std::vector<std::string> faults; // [use]; empty: the image was read
+    std::vector<std::string> faults; // [use]; of images that have no texels
     bool is_short = false;           // memory is short
 };
 
@@ -250,6 +249,9 @@ void read_image_in_thread(std::size_t i, void *context)
     } catch (const std::exception &fault) {
         work.faults[i] = fault.what();
     }
+    if (work.levels[i].texel_count == 0 && work.faults[i].empty()) {
+        work.faults[i] = "has no pixels";
+    }
 }
 
 } // namespace
@@ -284,6 +286,12 @@ const std::array<TextureSlot, 19> &texture_slots()
         {"KHR_materials_pbrSpecularGlossiness", "diffuseTexture", GLINT_TEXTURE_BASE_COLOR, true},
     }};
     return slots;
+}
+
+std::ptrdiff_t view_of_image(const json &root, std::size_t image)
+{
+    return optional_index(objects_of(root, "images")[image], (Place() / "images")[image],
+                          "bufferView", objects_of(root, "bufferViews").size(), "bufferView");
 }
 
 glint_texture_use read_texture_info(const json &root, const json &info, const Place &place,

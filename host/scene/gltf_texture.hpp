@@ -26,6 +26,9 @@ struct TextureSlot {
 // counts.
 const std::array<TextureSlot, 19> &texture_slots();
 
+// Returns the view that holds an image; −1: none. Refuses what is no index of a view.
+std::ptrdiff_t view_of_image(const json &root, std::size_t image);
+
 // What is wrong with a part of the file. `where` may be empty: the part that holds the note.
 struct Note {
     std::string where, text;

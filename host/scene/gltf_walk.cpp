@@ -446,11 +446,12 @@ void walk_scene(Load &load, double time, glint_scene &scene)
     load.poses.begin(pose_source(load), time, placed);
     allocate_lights(load, scene);
     for (std::size_t i = 0; i < load.visits.size(); i++) {
-        if (!load.visits[i].is_shown) {
-            continue;
-        }
         const std::size_t index = load.visits[i].node;
         const tinygltf::Node &node = load.model.nodes[index];
+        if (!load.visits[i].is_shown) {
+            load.hides_any = load.hides_any || node.mesh >= 0;
+            continue;
+        }
         survey_node(load, index);
         if (node.camera >= 0) {
             add_camera(load, index, placed[i], cameras);

@@ -47,7 +47,7 @@ struct Load {
     std::vector<std::ptrdiff_t> visit_of; // [node]; −1: not visited
     Poses poses;                          // poses of the draws
     std::vector<Draw> draws;
-    bool hides_any = false; // a scale of 0 hides some mesh at the walk's time
+    bool hides_any = false; // some mesh is hidden, or has a scale of 0 at the walk's time
     // True if some shown triangles, cameras or lights move over time.
     bool moves_triangles = false, moves_cameras = false, moves_lights = false;
     Tally tally;

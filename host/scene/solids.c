@@ -48,28 +48,45 @@ static bool is_turned(const glint_component *component)
 }
 
 // Finds the solid around a hollow. Of the solids of its material, or of one like it, whose bounds
-// hold the hollow's bounds, this is the one of least volume. NULL: none, or the component winds
-// like a solid.
+// hold the hollow's bounds, this is the one of least volume. NULL: none.
 static ranked *solid_around(const glint_scene *scene, const glint_topology *topology,
-                            const ranked *hollow, ranked *all, size_t count)
+                            const ranked *hollow, ranked *upright, size_t count)
 {
     const glint_material *materials = scene->materials;
     const glint_component *inner = &topology->components[hollow->component];
     ranked *around = NULL;
-    for (size_t i = 0; is_turned(inner) && i < count; i++) {
-        const glint_component *outer = &topology->components[all[i].component];
-        bool holds =
-            outer->volume > 0 && glint_material_media_are_alike(&materials[all[i].material],
-                                                                &materials[hollow->material]);
+    for (size_t i = 0; i < count; i++) {
+        const glint_component *outer = &topology->components[upright[i].component];
+        bool holds = glint_material_media_are_alike(&materials[upright[i].material],
+                                                    &materials[hollow->material]);
         for (int k = 0; k < 3; k++) {
             holds = holds && outer->low[k] <= inner->low[k] && outer->high[k] >= inner->high[k];
         }
         if (holds &&
             (around == NULL || outer->volume < topology->components[around->component].volume)) {
-            around = &all[i];
+            around = &upright[i];
         }
     }
     return around;
+}
+
+// Appends the solids that are turned, or those that are not, to the `listed` ones. Returns how many
+// there are then.
+static size_t append_solids(const glint_scene *scene, const glint_topology *topology, bool turned,
+                            ranked *all, size_t listed)
+{
+    for (size_t i = 0; i < topology->component_count; i++) {
+        const glint_component *c = &topology->components[i];
+        const glint_material *m = &scene->materials[c->material];
+        if (is_turned(c) == turned && glint_material_lobes(m).solid) {
+            all[listed++] = (ranked){.priority = (double)m->priority,
+                                     .volume = fabs(c->volume),
+                                     .component = (uint32_t)i,
+                                     .belongs_to = (uint32_t)i,
+                                     .material = c->material};
+        }
+    }
+    return listed;
 }
 
 // Fills `all` with the solids, and assigns hollows to the solids around them. Counts those of
@@ -77,25 +94,13 @@ static ranked *solid_around(const glint_scene *scene, const glint_topology *topo
 static size_t list_solids(const glint_scene *scene, const glint_topology *topology, ranked *all,
                           glint_solids *solids)
 {
-    size_t listed = 0;
-    for (size_t i = 0; i < topology->component_count; i++) {
-        const uint32_t number = topology->components[i].material;
-        const glint_material *m = &scene->materials[number];
-        if (glint_material_lobes(m).solid) {
-            all[listed++] = (ranked){.priority = (double)m->priority,
-                                     .volume = fabs(topology->components[i].volume),
-                                     .component = (uint32_t)i,
-                                     .belongs_to = (uint32_t)i,
-                                     .material = number};
-        }
-    }
-    size_t turned = 0;
+    const size_t upright = append_solids(scene, topology, false, all, 0);
+    const size_t listed = append_solids(scene, topology, true, all, upright);
     for (size_t i = 0; i < listed; i++) {
         solids->mixed_count += topology->components[all[i].component].has_materials;
-        turned += is_turned(&topology->components[all[i].component]);
     }
-    for (size_t i = 0; turned * listed <= PAIRS_MAX && i < listed; i++) {
-        ranked *around = solid_around(scene, topology, &all[i], all, listed);
+    for (size_t i = upright; (listed - upright) * upright <= PAIRS_MAX && i < listed; i++) {
+        ranked *around = solid_around(scene, topology, &all[i], all, upright);
         if (around != NULL) {
             all[i].belongs_to = around->component;
             solids->mixed_count += all[i].material != around->material;
