@@ -44,10 +44,11 @@ static inline lobe_parts find_albedo(const scene_buffers *scene, real cosine, re
 }
 
 #if GLINT_BRUSHED
-// The albedo of a surface that is rougher along a direction. It is the mean over visible facets,
-// spread evenly (see facets.cl), of the share of light that no other facet blocks. `along` is v
-// along the direction of larger roughness.
-#define BRUSHED_FACETS 64
+// The albedo of a surface that is rougher along a direction. It is the mean over visible facets
+// (see facets.cl) of the share of light that no other facet blocks. The facets that are seen
+// flattest, where this changes fastest, stand closer and count less. `along` is v along the
+// direction of larger roughness.
+#define BRUSHED_FACETS 128
 static inline lobe_parts brushed_albedo(real cosine, real along, real roughness, real anisotropy)
 {
     const real alpha = roughness * roughness;
@@ -60,8 +61,8 @@ static inline lobe_parts brushed_albedo(real cosine, real along, real roughness,
     lobe_parts sum = {real_of(0), real_of(0)};
     scalar c = R(1.0), s = R(0.0); // of the facet's turn, which advances by the golden section
     for (int i = 0; i < BRUSHED_FACETS; i++) {
-        const scalar down = ((scalar)i + R(0.5)) / (scalar)BRUSHED_FACETS;
-        const real z = fused(real_of(-down), R(1.0) + vz, real_of(1));
+        const scalar rest = R(1.0) - ((scalar)i + R(0.5)) / (scalar)BRUSHED_FACETS;
+        const real z = fused(real_of(rest * rest - R(1.0)), R(1.0) + vz, real_of(1));
         const real ring = sqrt(LARGER((R(1.0) - z) * (R(1.0) + z), real_of(0)));
         const real hx = longer * fused(ring, real_of(c), vx), hy = alpha * fused(ring, real_of(s), vy);
         const real up = z + vz;
@@ -72,7 +73,7 @@ static inline lobe_parts brushed_albedo(real cosine, real along, real roughness,
         const real lx = longer * fused(twice, hx, -along), ly = alpha * fused(twice, hy, -aside);
         const real root_of_l = sqrt(fused(lx, lx, fused(ly, ly, away * away)));
         const real open = away * (cosine + root) / fused(away, root, cosine * root_of_l);
-        const real weight = SELECT(away > R(0.0), open, real_of(0));
+        const real weight = SELECT(away > R(0.0), open * (R(2.0) * rest), real_of(0));
         // Sum Schlick's two parts, and turn on.
         const real m = LARGER(R(1.0) - toward, real_of(0)), m2 = m * m;
         const real edge = weight * (m2 * m2 * m);

@@ -353,32 +353,6 @@ static void an_empty_scene_is_said(void **state)
     free(text);
 }
 
-// ---- Lights -------------------------------------------------------------------------------------
-
-#define LIGHT(light, named)                                                                        \
-    NODES("{\"mesh\":0,\"extensions\":{\"KHR_lights_punctual\":{" named "}}}")                     \
-    ",\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\"" light "}]}}"
-
-static void small_faults_of_lights_are_said(void **state)
-{
-    static const fault_case cases[] = {
-        {LIGHT(",\"color\":[1,0.5]", "\"light\":0"), "lights[0]: color has not 3 numbers"},
-        {LIGHT(",\"range\":0", "\"light\":0"), "lights[0]: range is no distance"},
-        {LIGHT("", ""), "nodes[0]: it names no light; the node has no light"},
-        {LIGHT("", "\"light\":1"), "there is no such light"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char *text = gltf_text(&the_tetrahedron, sizeof the_tetrahedron, cases[i].rest);
-        glint_scene scene;
-        glint_warnings warnings = {0};
-        assert_int_equal(load_text(*state, text, &scene, &warnings, NULL), GLINT_OK);
-        assert_true(any_warning_has(&warnings, cases[i].said));
-        glint_warnings_free(&warnings);
-        glint_scene_free(&scene);
-        free(text);
-    }
-}
-
 // ---- Alpha --------------------------------------------------------------------------------------
 
 // Glass with a volume is all there. That matters only if some alpha says otherwise.
@@ -415,7 +389,6 @@ int main(void)
         cmocka_unit_test(extensions_that_change_no_picture_are_silent),
         cmocka_unit_test(hidden_nodes_are_not_drawn),
         cmocka_unit_test(an_empty_scene_is_said),
-        cmocka_unit_test(small_faults_of_lights_are_said),
         cmocka_unit_test(alpha_of_glass_is_told_of_where_it_would_count),
     };
     return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);

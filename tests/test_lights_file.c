@@ -214,7 +214,7 @@ static void lights_that_cannot_be_read_are_left_out(void **state)
         {TETRAHEDRON
          ",\"nodes\":[{\"mesh\":0,\"extensions\":{\"KHR_lights_punctual\":{}}}]," ONE_SCENE LIGHTS(
              "{\"type\":\"point\"}"),
-         NULL},
+         "nodes[0]: it names no light; the node has no light"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         glint_scene scene = load_faulty(*state, cases[i][0], cases[i][1], 0);
@@ -230,6 +230,8 @@ static void small_faults_of_lights_are_mended(void **state)
     } cases[] = {
         {LIGHT("\"type\":\"point\",\"intensity\":null"), NULL, INFINITY, 0, 0},
         {LIGHT("\"type\":\"point\",\"name\":1"), NULL, INFINITY, 0, 0},
+        {LIGHT("\"type\":\"point\",\"color\":[1,0.5]"), "lights[0]: color has not 3 numbers",
+         INFINITY, 0, 0},
         {LIGHT("\"type\":\"point\",\"range\":0"),
          "lights[0]: range is no distance (it counts as unlimited)", INFINITY, 0, 0},
         {LIGHT("\"type\":\"point\",\"range\":-2"), "range is no distance", INFINITY, 0, 0},

@@ -64,8 +64,8 @@ typedef enum glint_irradiance {
 
 // How often light is reflected between the microfacets of rough surfaces.
 typedef enum glint_scattering {
-    GLINT_SCATTERING_SINGLE,   // once; the rest is lost, as in glTF
     GLINT_SCATTERING_MULTIPLE, // until all light has left: a white surface reflects all light
+    GLINT_SCATTERING_SINGLE,   // once; the rest is lost
 } glint_scattering;
 
 // How rough surfaces are shaded. Surfaces are smooth with terms, with a proxy, and if pixels are

@@ -240,10 +240,11 @@ const glint_setting glint_setting_table[] = {
     {GLINT_SETTINGS_OF_FRAME, MEMBER(scattering), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
      .key = "scattering",
      .option = {GLINT_OPTION_CHOICE, .name = "scattering", .argument = "KIND",
-                .help = "Reflections between the microfacets of rough surfaces: single, once, as "
-                        "in glTF, which darkens rough metal; multiple, until the light leaves, so "
-                        "white metal reflects all of it.",
-                .choices = GLINT_CHOICES("single", "multiple")}},
+                .help = "Reflections between the microfacets of rough surfaces: multiple, until "
+                        "the light leaves, so white metal reflects all of it, as in three.js, "
+                        "Filament and Blender; single, once, as in glTF's formulas, which darkens "
+                        "rough metal.",
+                .choices = GLINT_CHOICES("multiple", "single")}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(facets), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
      .key = "facets", .roles = GLINT_SETTING_VARIES,
      .option = {GLINT_OPTION_INT, .name = "facets", .argument = "N",
