@@ -79,6 +79,12 @@ static double error_of(const contest *c)
     return metrics.relative_rmse;
 }
 
+static void reference_of(const contest *c, glint_rung *reference)
+{
+    const glint_plan *plan = glint_renderer_plan(c->renderer);
+    glint_rung_reference(&c->settings, plan->features[GLINT_FEATURE_ROUGH].compiled, reference);
+}
+
 // Lists all settings that --max-error chooses from.
 static void list_ways(contest *c)
 {
@@ -104,7 +110,7 @@ static void list_ways(contest *c)
 static glint_status try_ways(contest *c, glint_error *error)
 {
     glint_rung reference;
-    glint_rung_reference(&c->settings, &reference);
+    reference_of(c, &reference);
     TRY(render(c, &reference.settings, &c->reference, &c->reference_ms, error));
     list_ways(c);
     for (size_t i = 0; i < c->way_count; i++) {
@@ -133,7 +139,7 @@ static size_t best_within(const contest *c, double bound, way best[FINALISTS])
         }
     }
     if (count == 0) {
-        glint_rung_reference(&c->settings, &best[count++].rung);
+        reference_of(c, &best[count++].rung);
     }
     return count;
 }

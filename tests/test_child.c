@@ -160,12 +160,50 @@ static void a_child_that_is_abandoned_can_clean_up(void **state)
     assert_int_equal(access(path, F_OK), -1);
 }
 
+// The first takes longest. The third crashes.
+static glint_status work_or_crash(void *context, char **text, glint_error *error)
+{
+    (void)error;
+    const int number = *(const int *)context;
+    const struct timespec nap = {.tv_nsec = number == 0 ? 50000000 : 1000000};
+    nanosleep(&nap, NULL);
+    if (number == 2) {
+        _exit(7);
+    }
+    return asprintf(text, "%d of pid %d", number, (int)getpid()) < 0 ? GLINT_OUT_OF_MEMORY
+                                                                     : GLINT_OK;
+}
+
+static void several_children_work_together(void **state)
+{
+    (void)state;
+    enum { COUNT = 7 };
+    for (int at_once = 0; at_once < 9; at_once += 4) {
+        int numbers[COUNT];
+        glint_child children[COUNT];
+        glint_child_answer answers[COUNT];
+        for (int i = 0; i < COUNT; i++) {
+            numbers[i] = i;
+            children[i] = (glint_child){.work = work_or_crash, .context = &numbers[i]};
+        }
+        glint_children_run(children, COUNT, at_once, answers);
+        for (int i = 0; i < COUNT; i++) {
+            assert_int_equal(answers[i].status, i == 2 ? GLINT_DEVICE_FAILED : GLINT_OK);
+            assert_true(i == 2 ? strstr(answers[i].error.message, "status 7") != NULL
+                               : answers[i].text[0] == '0' + i);
+            free(answers[i].text);
+            glint_error_free(&answers[i].error);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_text_comes_back_and_nothing_else),
         cmocka_unit_test(an_error_comes_back_with_its_details),
         cmocka_unit_test(a_child_that_crashes_is_an_error),
+        cmocka_unit_test(several_children_work_together),
         cmocka_unit_test(a_stop_ends_a_child_that_heeds_nothing),
         cmocka_unit_test_setup_teardown(a_child_that_is_abandoned_can_clean_up, scratch_setup,
                                         scratch_teardown),

@@ -166,15 +166,20 @@ static glint_status fail_without_answer(int how, glint_error *error)
                       WIFEXITED(how) ? WEXITSTATUS(how) : -1);
 }
 
-glint_status glint_child_run(const glint_child *child, char **text, glint_error *error)
+typedef struct running {
+    const glint_child *child;
+    pid_t process;
+    int pipe; // its answer
+} running;
+
+static glint_status start(const glint_child *child, running *started, glint_error *error)
 {
-    *text = NULL;
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) {
         return glint_fail(error, GLINT_DEVICE_FAILED, "no pipe to another process: %s",
                           strerror(errno));
     }
-    pid_t process = fork();
+    const pid_t process = fork();
     if (process == 0) {
         close(ends[0]);
         be_child(child, ends[1]);
@@ -184,14 +189,59 @@ glint_status glint_child_run(const glint_child *child, char **text, glint_error 
         close(ends[0]);
         return glint_fail(error, GLINT_DEVICE_FAILED, "no other process: %s", strerror(errno));
     }
+    *started = (running){child, process, ends[0]};
+    return GLINT_OK;
+}
+
+// Waits for the answer and for the end of the child.
+static glint_status finish(const running *r, char **text, glint_error *error)
+{
+    const glint_child *child = r->child;
     glint_status status = GLINT_OK;
-    bool answered = receive(ends[0], child, &status, text, error);
-    close(ends[0]);
+    const bool answered = receive(r->pipe, child, &status, text, error);
+    close(r->pipe);
     if (!answered && child->stop_requested != NULL && child->stop_requested()) {
-        end_child(process, child->is_expendable);
+        end_child(r->process, child->is_expendable);
         return glint_fail(error, GLINT_INTERRUPTED, "stopped");
     }
     int how = 0;
-    reap(process, &how, 0);
+    reap(r->process, &how, 0);
     return answered ? status : fail_without_answer(how, error);
+}
+
+glint_status glint_child_run(const glint_child *child, char **text, glint_error *error)
+{
+    running r;
+    *text = NULL;
+    TRY(start(child, &r, error));
+    return finish(&r, text, error);
+}
+
+void glint_children_run(const glint_child *children, size_t count, int at_once,
+                        glint_child_answer *answers)
+{
+    enum { MOST = 64 };
+    running all[MOST];
+    struct pollfd pipes[MOST];
+    const size_t most = at_once < 1 ? 1 : at_once > MOST ? MOST : (size_t)at_once;
+    size_t next = 0, together = 0;
+    memset(answers, 0, count * sizeof *answers);
+    while (next < count || together > 0) {
+        for (; next < count && together < most; next++) {
+            glint_child_answer *a = &answers[next];
+            a->status = start(&children[next], &all[together], &a->error);
+            together += a->status == GLINT_OK;
+        }
+        for (size_t i = 0; i < together; i++) {
+            pipes[i] = (struct pollfd){.fd = all[i].pipe, .events = POLLIN};
+        }
+        poll(pipes, (nfds_t)together, -1);
+        for (size_t i = together; i-- > 0;) {
+            if (pipes[i].revents != 0) {
+                glint_child_answer *a = &answers[all[i].child - children];
+                a->status = finish(&all[i], &a->text, &a->error);
+                all[i] = all[--together];
+            }
+        }
+    }
 }

@@ -6,6 +6,7 @@
 #include "base/status.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -27,6 +28,19 @@ typedef struct glint_child {
 // an OpenCL driver that the caller has loaded. Errors besides the work's own: GLINT_INTERRUPTED
 // after a stop; GLINT_DEVICE_FAILED if the fork fails or the child ends without an answer.
 glint_status glint_child_run(const glint_child *child, char **text, glint_error *error);
+
+// What a child said.
+typedef struct glint_child_answer {
+    glint_status status;
+    char *text; // malloc'd; the caller frees it. NULL on failure
+    glint_error error;
+} glint_child_answer;
+
+// Runs `count` children, at most `at_once` together, and fills answers[count]. One thread forks
+// them all: another one that allocated at that moment might leave a lock that nobody opens in the
+// child. `stop_requested` must be NULL, and children must not ask whether they are abandoned.
+void glint_children_run(const glint_child *children, size_t count, int at_once,
+                        glint_child_answer *answers);
 
 // In a child: true if the caller has stopped or died, so that nobody waits for the answer. Work
 // that must clean up asks now and then. A signal would not do: a terminal sends signals to the

@@ -42,14 +42,11 @@ static const glint_option options[] = {
 
 static const glint_option *const groups[] = {options, NULL};
 
-// A kernel to compile, and what came of it.
+// A kernel to compile.
 typedef struct job {
     const char *device; // as glint_device_open expects it
     glint_general_request kernel;
     const char *build_options; // of special kernels instead; NULL: none
-    char *line;                // for the user
-    glint_status status;
-    glint_error error;
 } job;
 
 #define MOST_JOBS (4 * (GLINT_KERNEL_KINDS - 1))
@@ -82,14 +79,6 @@ static glint_status compile(void *context, char **text, glint_error *error)
 cleanup:
     glint_device_close(device);
     return status;
-}
-
-// A driver may compile one program at a time: PoCL does. So each job has a process of its own.
-static void compile_elsewhere(size_t index, void *context)
-{
-    job *j = (job *)context + index;
-    const glint_child child = {.work = compile, .context = j, .is_expendable = true};
-    j->status = glint_child_run(&child, &j->line, &j->error);
 }
 
 // Lists the kernels, the largest first: it takes longest.
@@ -133,17 +122,23 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     }
     glint_driver_cache_prepare(); // here, so that the children share a temporary cache
     const size_t count = list_jobs(request, jobs);
-    glint_parallel_for(count, compile_elsewhere, jobs);
+    // A driver may compile one program at a time: PoCL does. So each job has a process of its own.
+    glint_child children[MOST_JOBS];
+    glint_child_answer answers[MOST_JOBS];
     for (size_t i = 0; i < count; i++) {
-        if (jobs[i].status == GLINT_OK) {
-            printf("%s", jobs[i].line != NULL ? jobs[i].line : "");
+        children[i] = (glint_child){.work = compile, .context = &jobs[i], .is_expendable = true};
+    }
+    glint_children_run(children, count, glint_usable_cores(), answers);
+    for (size_t i = 0; i < count; i++) {
+        if (answers[i].status == GLINT_OK) {
+            printf("%s", answers[i].text);
         } else if (status == GLINT_OK) {
-            status = jobs[i].status; // of the first that failed
-            *error = jobs[i].error;
+            status = answers[i].status; // of the first that failed
+            *error = answers[i].error;
         } else {
-            glint_error_free(&jobs[i].error);
+            glint_error_free(&answers[i].error);
         }
-        free(jobs[i].line);
+        free(answers[i].text);
     }
     return status;
 }
