@@ -246,13 +246,16 @@ static void a_lie_is_refused(const char *folder, const unsigned char *bytes, siz
 // Replaces every `from` by `to`. The caller frees the result.
 static char *replaced(const char *text, const char *from, const char *to)
 {
-    char *result = calloc(1, 16384);
-    assert_non_null(result);
+    char *result;
+    size_t size;
+    FILE *stream = open_memstream(&result, &size);
+    assert_non_null(stream);
     for (const char *at; (at = strstr(text, from)) != NULL; text = at + strlen(from)) {
-        strncat(result, text, (size_t)(at - text));
-        strcat(result, to);
+        fprintf(stream, "%.*s%s", (int)(at - text), text, to);
     }
-    return strcat(result, text);
+    fputs(text, stream);
+    fclose(stream);
+    return result;
 }
 
 // The packed data decides how many vertices and corners there are. A warning says where accessors
@@ -362,16 +365,13 @@ static void targets_must_fit_the_packed_vertices(void **state)
 static char *greedy_rest(size_t size, const char *count)
 {
     static const int types[] = {5120, 5121, 5122, 5123, 5125, 5126};
-    char accessors[4096] = "", attributes[1024] = "", ids[1024] = "", all[16384];
+    char accessors[4096], attributes[1024], ids[1024], all[16384];
+    char *a = accessors, *b = attributes, *c = ids;
     for (int i = 0; i < 12; i++) {
-        char one[256];
-        snprintf(one, sizeof one, ",{\"componentType\":%d,\"count\":%s,\"type\":\"VEC%d\"}",
-                 types[i % 6], count, i < 6 ? 3 : 4);
-        strcat(accessors, one);
-        snprintf(one, sizeof one, ",\"_%d\":%d", i, 4 + i);
-        strcat(attributes, one);
-        snprintf(one, sizeof one, ",\"_%d\":%d", i, i < 6 ? 1 : 2);
-        strcat(ids, one);
+        a += sprintf(a, ",{\"componentType\":%d,\"count\":%s,\"type\":\"VEC%d\"}", types[i % 6],
+                     count, i < 6 ? 3 : 4);
+        b += sprintf(b, ",\"_%d\":%d", i, 4 + i);
+        c += sprintf(c, ",\"_%d\":%d", i, i < 6 ? 1 : 2);
     }
     snprintf(all, sizeof all,
              REQUIRED "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu}]," ACCESSORS

@@ -105,14 +105,13 @@ static void decorations_that_cannot_be_read_are_left_out(void **state)
 // Three coordinates are read in steps of three: the result is that of the first two.
 static void the_first_two_of_three_coordinates_count(void **state)
 {
-    static const char *const material =
-        ",\"images\":[{\"uri\":\"data:image/png;base64,"
-        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNoaGgAAAMEAYFL09IQAAAAAElFTkSuQm"
-        "CC"
-        "\"}],\"textures\":[{\"source\":0}],\"materials\":[{\"pbrMetallicRoughness\":{"
-        "\"baseColorTexture\":{\"index\":0}}}]";
-    char rest[4096] = DECORATED("\"TEXCOORD_0\":3");
-    strcat(rest, material);
+    char rest[4096] = DECORATED("\"TEXCOORD_0\":3") ",\"images\":[{\"uri\":\"data:image/png;base64,"
+                                                    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAA"
+                                                    "AADElEQVR4nGNoaGgAAAMEAYFL09IQAAAAAElFTkSuQm"
+                                                    "CC"
+                                                    "\"}],\"textures\":[{\"source\":0}],"
+                                                    "\"materials\":[{\"pbrMetallicRoughness\":{"
+                                                    "\"baseColorTexture\":{\"index\":0}}}]";
     char *indices = strstr(rest, "\"indices\":2}");
     memmove(indices + 13, indices, strlen(indices) + 1);
     memcpy(indices, "\"material\":0,", 13);

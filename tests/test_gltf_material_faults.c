@@ -314,7 +314,7 @@ static void one_line_tells_of_all_missing_images(void **state)
     for (int i = 0; i < 5; i++) {
         to += sprintf(to, "%s{\"source\":%d}", i > 0 ? "," : "", i);
     }
-    strcpy(to, "]");
+    sprintf(to, "]");
     glint_warnings warnings = {0};
     // The first image is used twice.
     glint_scene scene = load_material(

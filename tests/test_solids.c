@@ -25,6 +25,10 @@ static void analyse(found *f)
 {
     assert_int_equal(glint_topology_find(&f->scene, &f->topology, NULL), GLINT_OK);
     assert_int_equal(glint_solids_find(&f->scene, &f->topology, &f->solids, NULL), GLINT_OK);
+    if (f->solids.of_triangle == NULL || f->solids.material_of == NULL ||
+        (f->solids.contacts == NULL && f->solids.contact_count > 0)) {
+        abort();
+    }
 }
 
 static found find(const bodies *all, double turn)

@@ -190,7 +190,7 @@ static bool make_matrix(const variables *found, glint_hdr *header)
 glint_status glint_hdr_read_header(const glint_hdr_file *file, glint_hdr *header,
                                    glint_error *error)
 {
-    char line[LINE];
+    char line[LINE] = "";
     variables found = {.gain = {1, 1, 1}};
     *header = (glint_hdr){0};
     do {

@@ -259,22 +259,6 @@ bool read_framed(ImageInput &input, const Part &part, Memory &memory, glint_stor
     return is_read;
 }
 
-glint_status read_part(const glint_codec_request &request, ImageInput &input, const Part &part,
-                       Memory &memory, glint_stored_facts &facts, glint_error *error)
-{
-    const ImageSpec &spec = part.spec;
-    bool is_read = false;
-    if (is_framed(request, part, facts)) {
-        TRY(check_cost(request, spec.full_width, spec.full_height, facts.channels, error));
-        is_read = read_framed(input, part, memory, facts);
-    } else {
-        is_read = read_values(input, part, facts, memory.grow(bytes_of(facts)));
-    }
-    return is_read ? GLINT_OK
-                   : glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", request.path,
-                                cause_of(input, request).c_str());
-}
-
 glint_status decode_part(const glint_codec_request &request, ImageInput &input, Memory &memory,
                          glint_codec_answer &answer, glint_error *error)
 {
@@ -287,9 +271,18 @@ glint_status decode_part(const glint_codec_request &request, ImageInput &input, 
     find_facts(request.plugin, part, facts);
     TRY(find_conversion(request, part, matrix, is_converted, error));
     // Halfs stay halfs: they take half the memory, and glint converts them in parallel.
-    facts.is_half = part.spec.format == TypeDesc::HALF && part.spec.channelformats.empty() &&
-                    !is_converted && !is_framed(request, part, facts);
-    TRY(read_part(request, input, part, memory, facts, error));
+    const ImageSpec &spec = part.spec;
+    const bool framed = is_framed(request, part, facts);
+    facts.is_half =
+        spec.format == TypeDesc::HALF && spec.channelformats.empty() && !is_converted && !framed;
+    if (framed) {
+        TRY(check_cost(request, spec.full_width, spec.full_height, facts.channels, error));
+    }
+    if (!(framed ? read_framed(input, part, memory, facts)
+                 : read_values(input, part, facts, memory.grow(bytes_of(facts))))) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", request.path,
+                          cause_of(input, request).c_str());
+    }
     answer.value_bytes = bytes_of(facts);
     if (is_converted) {
         glint_color_matrix_apply(&matrix, reinterpret_cast<float *>(memory.data()),

@@ -190,10 +190,12 @@ static bool interpolated_normal(const place *p, vector *n)
 // Interpolates tangent and bitangent. False if a corner has none, or if their signs differ.
 static bool find_tangents(const place *p, vector n, vector *tangent, vector *bitangent)
 {
-    double turn = p->corners ? p->corners[0].tangent[3] : 0.0;
+    if (!p->corners || p->corners[0].tangent[3] == 0.0)
+        return false;
+    double turn = p->corners[0].tangent[3];
     vector sum = {{0.0, 0.0, 0.0}};
     for (int i = 0; i < 3; i++) {
-        if (turn == 0.0 || p->corners[i].tangent[3] != turn)
+        if (p->corners[i].tangent[3] != turn)
             return false;
         sum = plus(sum, scaled(vector_of(p->corners[i].tangent), p->weights[i]));
     }

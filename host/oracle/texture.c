@@ -13,17 +13,17 @@ bool oracle_image_create(int width, int height, oracle_image *image)
 {
     *image = (oracle_image){.width = width, .height = height};
     size_t first[ORACLE_LEVELS] = {0}, count = 0;
-    int w = 0, h = 0;
-    while (image->levels < ORACLE_LEVELS && (w != 1 || h != 1)) {
+    int w, h;
+    do {
         first[image->levels] = count;
         w = oracle_image_side(width, image->levels);
         h = oracle_image_side(height, image->levels++);
         count += (size_t)w * (size_t)h;
-    }
-    double(*all)[4] = calloc(count, sizeof *all);
-    for (int level = 0; all && level < image->levels; level++)
-        image->texels[level] = all + first[level];
-    return all != NULL;
+    } while (image->levels < ORACLE_LEVELS && (w != 1 || h != 1));
+    image->texels[0] = calloc(count, sizeof *image->texels[0]);
+    for (int level = 1; image->texels[0] && level < image->levels; level++)
+        image->texels[level] = image->texels[0] + first[level];
+    return image->texels[0] != NULL;
 }
 
 void oracle_image_free(oracle_image *image)

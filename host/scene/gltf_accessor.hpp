@@ -11,7 +11,7 @@ namespace glint
 {
 
 // Returns the bytes of a view whose buffer is loaded.
-const unsigned char *view_data(const Model &model, std::size_t view);
+const unsigned char *view_data(const Model &model, std::size_t index);
 
 // Reads an accessor's elements in place, in any order. It copies nothing, so the file's size limits
 // the memory, not its counts. Zero is valid and reads zeros. The model must outlive the reader.

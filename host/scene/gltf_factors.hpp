@@ -11,7 +11,7 @@ constexpr const char *specular_glossiness = "KHR_materials_pbrSpecularGlossiness
 
 // Reads a material without its textures. A number out of its range counts as the nearest within,
 // and is noted. Refuses what is no number.
-glint_material read_factors_at(const json &material, const Place &place, std::vector<Note> &notes);
+glint_material read_factors_at(const json &object, const Place &place, std::vector<Note> &notes);
 
 } // namespace glint
 

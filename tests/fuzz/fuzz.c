@@ -410,16 +410,19 @@ int main(int argc, char **argv)
     text *seeds = calloc(seed_count, sizeof *seeds), input = {.bytes = malloc(LONGEST)};
     if (seeds == NULL || input.bytes == NULL) {
         fputs("fuzz: not enough memory\n", stderr);
-        return 2;
+        exit(2);
     }
-    for (size_t i = 0; i < seed_count; i++) {
-        seeds[i] = read_seed(argv[5 + i]);
-    }
+    size_t read = 0;
+    do {
+        seeds[read] = read_seed(argv[5 + read]);
+    } while (++read < seed_count);
     // Read mutations of random seeds until the time is over.
     tallies sum = {0};
     for (const time_t end = time(NULL) + (time_t)seconds; time(NULL) < end; sum.inputs++) {
         const text *seed = &seeds[below(seed_count)];
-        memcpy(input.bytes, seed->bytes, seed->length);
+        if (seed->length > 0) {
+            memcpy(input.bytes, seed->bytes, seed->length);
+        }
         input.length = seed->length;
         mutate(&input);
         targets[target].attempt(&input, &sum);

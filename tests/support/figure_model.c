@@ -175,7 +175,7 @@ static int vertex_at(const figure *f, double time, int vertex, double position[3
     for (int k = 0; k < 3; k++) {
         base[0][k] = (double)f->positions[vertex][k];
         base[1][k] = (double)f->normals[vertex][k];
-        for (int target = 0; target < f->kind.targets; target++) {
+        for (int target = 0; target < FIGURE_TARGETS && target < f->kind.targets; target++) {
             base[0][k] += weights[target] * f->deltas[target][0][vertex][k];
             base[1][k] += weights[target] * f->deltas[target][1][vertex][k];
         }

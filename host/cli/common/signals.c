@@ -10,6 +10,7 @@
 
 #include <errno.h>
 #include <pthread.h>
+#include <semaphore.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stddef.h>
@@ -30,9 +31,9 @@ static sigset_t stopping_signals(void)
     return set;
 }
 
-static void *wait_for_signal(void *unused)
+static void *wait_for_signal(void *started)
 {
-    (void)unused;
+    sem_post(started);
     const sigset_t stopping = stopping_signals();
     const struct timespec patience = {.tv_sec = PATIENCE};
     int first = SIGINT;
@@ -57,9 +58,15 @@ void glint_signals_install(void)
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     pthread_sigmask(SIG_BLOCK, &stopping, NULL);
+    // Wait for its start: what it allocates then would stay locked in a child that is forked
+    // meanwhile. glibc unlocks it, AddressSanitizer does not.
     pthread_t waiting;
-    if (pthread_create(&waiting, NULL, wait_for_signal, NULL) == 0) {
+    static sem_t started;
+    sem_init(&started, 0, 0);
+    if (pthread_create(&waiting, NULL, wait_for_signal, &started) == 0) {
         pthread_detach(waiting);
+        while (sem_wait(&started) != 0 && errno == EINTR) {
+        }
     } else { // fallback: a signal ends the process, and the next run removes its temporaries
         pthread_sigmask(SIG_UNBLOCK, &stopping, NULL);
     }
