@@ -496,6 +496,31 @@ static void textures_are_averaged_along_ellipses_unless_one_tap_is_asked_for(voi
     }
 }
 
+// Without its coat, rough paint is what its base is. Without lobes, metal shows no lights.
+static void settings_without_lobes_need_neither_weights_nor_lights(void **state)
+{
+    (void)state;
+    glint_punctual_light light = {.kind = GLINT_PUNCTUAL_POINT};
+    for (int i = 0; i < 8; i++) {
+        glint_material material = white_paint;
+        material.roughness = 0.5F;
+        material.specular = 0.5F;
+        material.metallic = i & 1 ? 1.0F : 0;
+        glint_settings settings = glint_settings_default;
+        settings.roughness = i & 2 ? GLINT_ROUGHNESS_SMOOTH : GLINT_ROUGHNESS_FAST;
+        settings.terms = i & 4 ? 2 : 0;
+        test_scene s;
+        make_scene(&s, &material, 1);
+        s.scene.lights = &light;
+        s.scene.light_count = 1;
+        glint_plan plan;
+        assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+        const bool lobes = (i & 6) == 0;
+        assert_int_equal(compiles(&plan, GLINT_FEATURE_ROUGH), lobes);
+        assert_int_equal(compiles(&plan, GLINT_FEATURE_LIGHTS), lobes || (i & 1) == 0);
+    }
+}
+
 static void features_have_what_they_need_whatever_is_asked_for(void **state)
 {
     (void)state;
@@ -555,6 +580,7 @@ int main(void)
         cmocka_unit_test(rough_materials_reflect_lobes),
         cmocka_unit_test(glass_compiles_what_its_volume_asks_for),
         cmocka_unit_test(unlit_and_blended_materials_hide_their_other_factors),
+        cmocka_unit_test(settings_without_lobes_need_neither_weights_nor_lights),
         cmocka_unit_test(lights_are_compiled_where_paint_shows_them),
         cmocka_unit_test(the_width_follows_the_device),
         cmocka_unit_test(the_stack_holds_every_branch_that_the_least_weight_allows),

@@ -59,6 +59,7 @@ typedef struct glint_plan {
     // Entries of the stack of the traversal; set after the tree is built.
     int traversal_stack;
     size_t environment_bytes; // device memory for the environment
+    size_t light_count;       // lights that shine, if a material shows them
     bool has_facets;          // the settings show rough glass, except with terms
     bool is_brushed;          // the settings show brushed lobes, except with terms
     bool has_sheen;           // the settings show sheen above metal or paint, except with terms

@@ -193,6 +193,9 @@ static void decide_optics(const material_census *c, glint_fresnel fresnel, glint
     } else if (glint_plan_shades_vertices(plan)) {
         decide(plan, GLINT_FEATURE_CLEARCOAT, false, "vertices are shaded, without coats");
     }
+    if (exact && !angular) {
+        decide(plan, GLINT_FEATURE_SPECULAR, false, "these settings show paint without its coat");
+    }
 }
 
 // At grazing angles, lobes are a few times narrower.
@@ -248,30 +251,23 @@ static void decide_attributes(const glint_plan_inputs *in, glint_plan *plan)
            textured ? "" : ", and no textures");
 }
 
-// The reason why no light of the scene shines; NULL: lights shine.
-static const char *no_lights(const glint_plan_inputs *in, const glint_plan *plan)
-{
-    const bool shows_lights = plan->features[GLINT_FEATURE_PAINT].compiled ||
-                              plan->features[GLINT_FEATURE_BLEND].compiled || plan->cells_last >= 0;
-    return in->scene->light_count == 0                 ? "the scene has no lights"
-           : in->settings->lights == GLINT_LIGHTS_NONE ? "lights none"
-           : in->settings->output == GLINT_OUTPUT_HITS ? "hits alone are wanted"
-           : glint_plan_shades_vertices(plan) ? "vertices are shaded, by the environment alone"
-           : !shows_lights                    ? "no material shows lights"
-                                              : NULL;
-}
-
-static glint_status decide_lights(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
+// Counts the lights that shine where a material shows them; decide_roughness finds whether one
+// does. Without such lights, decides LIGHTS with the reason.
+static glint_status count_lights(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
 {
     const glint_scene *scene = in->scene;
     const size_t count = scene->light_count;
-    const char *why_not = no_lights(in, plan);
+    const char *why_not = count == 0                                  ? "the scene has no lights"
+                          : in->settings->lights == GLINT_LIGHTS_NONE ? "lights none"
+                          : in->settings->output == GLINT_OUTPUT_HITS ? "hits alone are wanted"
+                          : glint_plan_shades_vertices(plan)
+                              ? "vertices are shaded, by the environment alone"
+                              : NULL;
+    plan->light_count = why_not == NULL ? count : 0;
     if (why_not != NULL) {
         decide(plan, GLINT_FEATURE_LIGHTS, false, "%s", why_not);
-        return GLINT_OK;
     }
-    decide(plan, GLINT_FEATURE_LIGHTS, true, "%zu light%s", count, count == 1 ? "" : "s");
-    return count <= GLINT_PUNCTUAL_LIGHTS_MAX
+    return plan->light_count <= GLINT_PUNCTUAL_LIGHTS_MAX
                ? GLINT_OK
                : glint_fail(error, GLINT_BAD_INPUT,
                             "%s: %zu lights shine, %d at most can be rendered (leave some out, or "
@@ -429,7 +425,7 @@ glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan 
     glint_plan_decide_inside(false, plan); // false until a camera is known
     decide_attributes(in, plan);
     decide_settings(in->settings, plan);
-    return decide_lights(in, plan, error);
+    return count_lights(in, plan, error);
 }
 
 // Decides the features that depend on the depth and on proofs about the scene.
@@ -478,6 +474,20 @@ static void decide_roughness(const glint_settings *settings, glint_plan *plan)
     }
 }
 
+// Decides the feature for lights, if any shine: paint and lobes show them.
+static void decide_lights(glint_plan *plan)
+{
+    const size_t count = plan->light_count;
+    const bool shown = plan->features[GLINT_FEATURE_PAINT].compiled ||
+                       plan->features[GLINT_FEATURE_BLEND].compiled ||
+                       plan->features[GLINT_FEATURE_ROUGH].compiled;
+    if (count > 0 && shown) {
+        decide(plan, GLINT_FEATURE_LIGHTS, true, "%zu light%s", count, count == 1 ? "" : "s");
+    } else if (count > 0) {
+        decide(plan, GLINT_FEATURE_LIGHTS, false, "no material shows lights");
+    }
+}
+
 // Decides the feature for paint that is lit from behind, if there is any.
 static void decide_translucence(const glint_settings *settings, glint_plan *plan)
 {
@@ -506,6 +516,7 @@ static void decide_dispersion(const glint_settings *settings, glint_plan *plan)
 void glint_plan_decide_extras(const glint_settings *settings, glint_plan *plan)
 {
     decide_roughness(settings, plan);
+    decide_lights(plan);
     decide_translucence(settings, plan);
     decide_dispersion(settings, plan);
     if (settings->terms > 0) {
