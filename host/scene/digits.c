@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "kernels/layout.h"
+#include "scene/faces.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -30,46 +31,19 @@ static glint_vec3 middle_of(const part *p)
                         (p->low[2] + p->high[2]) / 2};
 }
 
-typedef struct face {
-    glint_vec3 at[3], normal;
-    double place; // the depth of a place on it
-} face;
-
-static face face_of(const glint_scene *scene, size_t triangle)
+// The depth of a place on a face.
+static double place_on(const glint_face *f)
 {
-    face f;
-    for (int i = 0; i < 3; i++) {
-        f.at[i] = glint_scene_corner(scene, triangle, i);
-    }
-    f.normal = glint_vec3_normalize(glint_vec3_cross(glint_vec3_subtract(f.at[1], f.at[0]),
-                                                     glint_vec3_subtract(f.at[2], f.at[0])));
-    const float *p = glint_scene_told(scene) + 9 * triangle;
-    const double normal[3] = {fabs(f.normal.x), fabs(f.normal.y), fabs(f.normal.z)};
-    f.place = 0;
-    for (int k = 0; k < 3; k++) {
-        const double most =
-            fmax(fabs((double)p[k]), fmax(fabs((double)p[k + 3]), fabs((double)p[k + 6])));
-        f.place += (double)GLINT_TOUCHING * normal[k] * most;
-    }
-    return f;
+    return (double)GLINT_TOUCHING * f->along_normal;
 }
 
 // True if the part is beside the face, at a distance of up to its width and a place.
-static bool is_beside(const part *p, const face *f)
+static bool is_beside(const part *p, const glint_face *f)
 {
     const glint_vec3 middle = middle_of(p);
     const double reach = width_of(p);
-    if (fabs(glint_vec3_dot(f->normal, glint_vec3_subtract(middle, f->at[0]))) > reach + f->place) {
-        return false;
-    }
-    for (int i = 0; i < 3; i++) {
-        const glint_vec3 along = glint_vec3_subtract(f->at[(i + 1) % 3], f->at[i]);
-        const glint_vec3 inwards = glint_vec3_normalize(glint_vec3_cross(f->normal, along));
-        if (glint_vec3_dot(inwards, glint_vec3_subtract(middle, f->at[i])) < -reach) {
-            return false;
-        }
-    }
-    return true;
+    const double height = glint_vec3_dot(f->normal, glint_vec3_subtract(middle, f->at[0]));
+    return fabs(height) <= reach + place_on(f) && glint_face_faces(f, middle, reach);
 }
 
 // True if a part is at least as wide as a pixel.
@@ -118,7 +92,8 @@ static size_t choose_parts(const glint_scene *scene, const glint_camera *camera,
     double largest = 0; // depth of a place on the triangles that have no anchor
     for (size_t t = 0; t < scene->triangle_count; t++) {
         if (scene->parts.part_of[t] == 0) {
-            largest = fmax(largest, face_of(scene, t).place);
+            const glint_face f = glint_face_of(scene, t);
+            largest = fmax(largest, place_on(&f));
         }
     }
     size_t count = 0;
@@ -146,10 +121,11 @@ glint_coarse_places glint_coarse_places_find(const glint_scene *scene, const gli
     part *all = scene->parts.count > 0 ? measure_parts(scene) : NULL;
     const size_t count = all != NULL ? choose_parts(scene, camera, height, all) : 0;
     for (size_t t = 0; count > 0 && t < scene->triangle_count; t++) {
-        const face f = face_of(scene, t);
+        const glint_face f = glint_face_of(scene, t);
+        const double place = place_on(&f);
         for (size_t i = 0; scene->parts.part_of[t] == 0 && i < count; i++) {
-            if (width_of(&all[i]) < f.place && is_beside(&all[i], &f)) {
-                all[i].place = fmax(all[i].place, f.place);
+            if (width_of(&all[i]) < place && is_beside(&all[i], &f)) {
+                all[i].place = fmax(all[i].place, place);
             }
         }
     }

@@ -20,9 +20,9 @@ double glint_face_reach(const glint_face *f, const glint_face *other)
     return FARTHER * (double)GLINT_TOUCHING * (f->along_normal + 0.5 * size);
 }
 
-glint_face glint_face_of(const glint_scene *scene, uint32_t triangle)
+glint_face glint_face_of(const glint_scene *scene, size_t triangle)
 {
-    const float *told = glint_scene_told(scene) + (size_t)triangle * 9;
+    const float *told = glint_scene_told(scene) + 9 * triangle;
     glint_face f;
     double most[3] = {0, 0, 0};
     for (int i = 0; i < 3; i++) {
@@ -37,6 +37,18 @@ glint_face glint_face_of(const glint_scene *scene, uint32_t triangle)
     f.along_normal =
         fabs(f.normal.x) * most[0] + fabs(f.normal.y) * most[1] + fabs(f.normal.z) * most[2];
     return f;
+}
+
+bool glint_face_faces(const glint_face *f, glint_vec3 point, double reach)
+{
+    for (int i = 0; i < 3; i++) {
+        const glint_vec3 along = glint_vec3_subtract(f->at[(i + 1) % 3], f->at[i]);
+        const glint_vec3 inwards = glint_vec3_normalize(glint_vec3_cross(f->normal, along));
+        if (glint_vec3_dot(inwards, glint_vec3_subtract(point, f->at[i])) < -reach) {
+            return false;
+        }
+    }
+    return true;
 }
 
 // Heights of the corners of `above` over the plane of `f`; 0 within its reach.

@@ -1,4 +1,4 @@
-// Tells how two triangles meet; only contacts.c uses it.
+// Tells how two triangles meet; contacts.c, openings.c and digits.c use it.
 //
 // Two surfaces coincide if their distance along the normal is less than GLINT_TOUCHING of their
 // coordinates. This is a few times the distance that the kernels use (kernels/overlaps.cl).
@@ -29,7 +29,10 @@ typedef struct glint_face_edge {
     bool is_above;      // of the other face, as that one's normal points
 } glint_face_edge;
 
-glint_face glint_face_of(const glint_scene *scene, uint32_t triangle);
+glint_face glint_face_of(const glint_scene *scene, size_t triangle);
+
+// True if a point is above or below the face, or nearer than `reach` to being so.
+bool glint_face_faces(const glint_face *f, glint_vec3 point, double reach);
 
 // The distance from the plane of `f` within which `other` coincides with it.
 double glint_face_reach(const glint_face *f, const glint_face *other);

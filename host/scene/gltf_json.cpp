@@ -316,16 +316,4 @@ double number_of(const json &value, const Place &place)
     return number;
 }
 
-double number_within(const json &value, const Place &place, double low, double high)
-{
-    double number = number_of(value, place);
-    // Exporters compute in floats: a number past a bound by their rounding counts as the bound.
-    const double slack = 1e-6 * (high - low);
-    if (!(number >= low - slack && number <= high + slack)) {
-        refuse(place, shown(number) + " is outside [" + shown(low) + ", " + shown(high) +
-                          "] (give a value within)");
-    }
-    return std::min(std::max(number, low), high);
-}
-
 } // namespace glint

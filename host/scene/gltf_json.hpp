@@ -131,9 +131,8 @@ std::size_t index_of(const json &value, const Place &place, std::size_t count, c
 std::ptrdiff_t optional_index(const json &object, const Place &place, const char *key,
                               std::size_t count, const char *noun);
 
-// Return a finite number, and a number within [low, high], with tolerance for a float's rounding.
+// Returns a finite number.
 double number_of(const json &value, const Place &place);
-double number_within(const json &value, const Place &place, double low, double high);
 
 // Larger whole numbers are not exact in a JSON number.
 constexpr std::uint64_t largest_whole = (std::uint64_t{1} << 53) - 1;

@@ -4,6 +4,8 @@
 
 #include "base/memory.h"
 #include "kernels/layout.h"
+#include "scene/faces.h"
+#include "scene/welding.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,11 +22,6 @@ static bool is_opaque(const glint_material *m)
 static const float *told_corner(const glint_scene *scene, uint32_t corner)
 {
     return glint_scene_told(scene) + 3 * (size_t)corner;
-}
-
-static uint32_t next_corner(uint32_t corner)
-{
-    return corner % 3 == 2 ? corner - 2 : corner + 1;
 }
 
 // ---- Openings that opaque surfaces close --------------------------------------------------------
@@ -46,7 +43,7 @@ typedef struct border_table {
 static border_edge edge_at(const glint_scene *scene, uint32_t corner)
 {
     const float *a = told_corner(scene, corner);
-    const float *b = told_corner(scene, next_corner(corner));
+    const float *b = told_corner(scene, glint_next_corner(corner));
     bool swaps = false;
     for (int k = 2; k >= 0; k--) {
         swaps = a[k] != b[k] ? a[k] > b[k] : swaps;
@@ -162,54 +159,18 @@ typedef struct level_surface {
     bool is_buried[SAMPLES_MAX];     // which shows its back to the sample
 } level_surface;
 
-typedef struct face {
-    glint_vec3 at[3], normal; // the normal is a unit vector
-    double low[3], high[3];
-} face;
-
-static face face_of(const glint_scene *scene, size_t triangle)
-{
-    face f;
-    for (int i = 0; i < 3; i++) {
-        f.at[i] = glint_scene_corner(scene, triangle, i);
-    }
-    const double axes[3][3] = {{f.at[0].x, f.at[1].x, f.at[2].x},
-                               {f.at[0].y, f.at[1].y, f.at[2].y},
-                               {f.at[0].z, f.at[1].z, f.at[2].z}};
-    for (int k = 0; k < 3; k++) {
-        f.low[k] = fmin(axes[k][0], fmin(axes[k][1], axes[k][2]));
-        f.high[k] = fmax(axes[k][0], fmax(axes[k][1], axes[k][2]));
-    }
-    f.normal = glint_vec3_normalize(glint_vec3_cross(glint_vec3_subtract(f.at[1], f.at[0]),
-                                                     glint_vec3_subtract(f.at[2], f.at[0])));
-    return f;
-}
-
-// True if a point of the face's plane is on the face, or nearly.
-static bool holds(const face *f, glint_vec3 point)
-{
-    for (int i = 0; i < 3; i++) {
-        const glint_vec3 along = glint_vec3_subtract(f->at[(i + 1) % 3], f->at[i]);
-        const glint_vec3 inwards = glint_vec3_normalize(glint_vec3_cross(f->normal, along));
-        if (glint_vec3_dot(inwards, glint_vec3_subtract(point, f->at[i])) < -REACH) {
-            return false;
-        }
-    }
-    return true;
-}
-
 // Counts in an opaque face that may hold a sample of the boundary, or lie above it.
-static void hold_sample(level_surface *level, size_t i, const face *f)
+static void hold_sample(level_surface *level, size_t i, const glint_face *f)
 {
     const glint_vec3 p = level->samples[i];
     const double height = glint_vec3_dot(f->normal, glint_vec3_subtract(p, f->at[0]));
     if (fabs(height) <= REACH) {
-        level->is_held[i] = level->is_held[i] || holds(f, p);
+        level->is_held[i] = level->is_held[i] || glint_face_faces(f, p, REACH);
         return;
     }
     const double up = -height / f->normal.y; // infinite for upright faces
     const glint_vec3 over = {p.x, p.y + up, p.z};
-    if (up > 0 && up < level->above[i] && holds(f, over)) {
+    if (up > 0 && up < level->above[i] && glint_face_faces(f, over, REACH)) {
         level->above[i] = up;
         level->is_buried[i] = f->normal.y > 0;
     }
@@ -247,7 +208,7 @@ static void take_samples(const glint_scene *scene, const glint_topology *topolog
         if (topology->component_of[corner / 3] != level->component) {
             continue;
         }
-        const uint32_t next = next_corner(corner);
+        const uint32_t next = glint_next_corner(corner);
         const glint_vec3 a = glint_scene_corner(scene, corner / 3, (int)(corner % 3));
         const glint_vec3 b = glint_scene_corner(scene, next / 3, (int)(next % 3));
         level->least = fmin(level->least, fmin(a.y, b.y));
@@ -259,18 +220,23 @@ static void take_samples(const glint_scene *scene, const glint_topology *topolog
 }
 
 // Counts in a triangle of another component, or of no solid.
-static void meet_triangle(const glint_component *own, const face *f, bool opaque,
+static void meet_triangle(const glint_component *own, const glint_face *f, bool opaque,
                           level_surface *level)
 {
+    const glint_vec3 *at = f->at;
+    const double low[2] = {fmin(at[0].x, fmin(at[1].x, at[2].x)),
+                           fmin(at[0].z, fmin(at[1].z, at[2].z))};
+    const double high[2] = {fmax(at[0].x, fmax(at[1].x, at[2].x)),
+                            fmax(at[0].z, fmax(at[1].z, at[2].z))};
     bool is_beside = false;
     bool is_apart = false;
-    for (int k = 0; k < 3; k += 2) {
-        is_beside =
-            is_beside || f->low[k] < (double)own->low[k] || f->high[k] > (double)own->high[k];
-        is_apart = is_apart || f->high[k] < (double)own->low[k] - REACH ||
-                   f->low[k] > (double)own->high[k] + REACH;
+    for (int k = 0; k < 2; k++) {
+        const double own_low = (double)own->low[2 * k], own_high = (double)own->high[2 * k];
+        is_beside = is_beside || low[k] < own_low || high[k] > own_high;
+        is_apart = is_apart || high[k] < own_low - REACH || low[k] > own_high + REACH;
     }
-    level->is_met = level->is_met || (is_beside && f->low[1] < level->least - REACH);
+    const double lowest = fmin(at[0].y, fmin(at[1].y, at[2].y));
+    level->is_met = level->is_met || (is_beside && lowest < level->least - REACH);
     for (size_t i = 0; opaque && !is_apart && i < level->sample_count; i++) {
         hold_sample(level, i, f);
     }
@@ -294,7 +260,7 @@ static bool clear_levels(const glint_scene *scene, const glint_topology *topolog
         take_samples(scene, topology, &levels[i]);
     }
     for (size_t t = 0; count > 0 && t < scene->triangle_count; t++) {
-        const face f = face_of(scene, t);
+        const glint_face f = glint_face_of(scene, t);
         const bool opaque = is_opaque(&scene->materials[scene->material_of[t]]);
         for (size_t i = 0; i < count; i++) {
             if (topology->component_of[t] == levels[i].component) {
