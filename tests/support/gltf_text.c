@@ -37,7 +37,8 @@ static void keep_copy(const char *name, const void *bytes, size_t size)
     const char *kept = getenv("GLINT_TESTS_KEEP");
     char path[8192];
     if (kept != NULL) {
-        snprintf(path, sizeof path, "%s.%d.%s", kept, count++, name);
+        const char *slash = strrchr(name, '/');
+        snprintf(path, sizeof path, "%s.%d.%s", kept, count++, slash != NULL ? slash + 1 : name);
         write_file(path, bytes, size);
     }
 }
