@@ -57,23 +57,28 @@ vector oracle_tinted(const surface *s, double f0)
     return f;
 }
 
-// The reflectance of a dielectric with its film, for light from the medium `here`.
-static vector filmed(const surface *s, double here, double there)
+// The reflectance of a dielectric with its film, for light from the medium `here`. It is the same
+// from both sides. The base that a colour tints is the inner one: the stack is seen from outside.
+static vector filmed(const surface *s, double here, double there, bool leaves)
 {
+    double outer = leaves ? there : here, inner = leaves ? here : there;
+    double sine = here / outer * sqrt(fmax(0.0, 1.0 - s->cosine * s->cosine));
+    double cosine = leaves ? sqrt(fmax(0.0, 1.0 - sine * sine)) : s->cosine;
     film_stack stack = {
-        .above = here, .film = s->material->film_ior, .thickness = s->film_thickness};
-    double f0 = (here - there) * (here - there) / ((here + there) * (here + there));
+        .above = outer, .film = s->material->film_ior, .thickness = s->film_thickness};
+    double f0 = (outer - inner) * (outer - inner) / ((outer + inner) * (outer + inner));
     vector tinted = oracle_tinted(s, f0);
     for (int i = 0; i < 3; i++) {
         double index = oracle_index_of(tinted.at[i]);
-        stack.base[i] = tinted.at[i] == f0 ? there : there > here ? here * index : here / index;
+        stack.base[i] = tinted.at[i] == f0 ? inner : inner > outer ? outer * index : outer / index;
     }
-    return scaled(oracle_film(&stack, s->cosine), s->specular);
+    return scaled(oracle_film(&stack, cosine), s->specular);
 }
 
 // A dielectric whose reflectance is the share `schlick` of Schlick's term and the rest of
-// Fresnel's.
-static vector mixed_dielectric(const surface *s, double here, double there, double schlick)
+// Fresnel's. `leaves`: the light leaves the solid.
+static vector mixed_dielectric(const surface *s, double here, double there, double schlick,
+                               bool leaves)
 {
     double f0 = oracle_fresnel(1.0, here, there);
     double exact = (oracle_fresnel(s->cosine, here, there) - f0) / (1.0 - f0);
@@ -88,17 +93,17 @@ static vector mixed_dielectric(const surface *s, double here, double there, doub
     bool total = here * sine >= there || here * sine >= s->material->film_ior;
     if (s->film == 0.0 || total)
         return reflected;
-    return plus(scaled(reflected, 1.0 - s->film), scaled(filmed(s, here, there), s->film));
+    return plus(scaled(reflected, 1.0 - s->film), scaled(filmed(s, here, there, leaves), s->film));
 }
 
-vector oracle_dielectric(const surface *s, double here, double there)
+vector oracle_dielectric(const surface *s, double here, double there, bool leaves)
 {
-    return mixed_dielectric(s, here, there, 0.0);
+    return mixed_dielectric(s, here, there, 0.0, leaves);
 }
 
 vector oracle_coat(const surface *s, double ior)
 {
     double exact_up_to = 2.0 + sqrt(3.0), schlick_from = 6.0;
     double way = (1.0 / exact_up_to - 1.0 / ior) / (1.0 / exact_up_to - 1.0 / schlick_from);
-    return mixed_dielectric(s, 1.0, ior, fmin(fmax(way, 0.0), 1.0));
+    return mixed_dielectric(s, 1.0, ior, fmin(fmax(way, 0.0), 1.0), false);
 }

@@ -180,7 +180,7 @@ static interface interface_at(walk *w, const path *p, const surface *s)
     // Compute Fresnel's term, and how near the critical angle is.
     double eta = ior_here / ior_there;
     if (!w->view->no_fresnel)
-        glass.fresnel = oracle_dielectric(s, ior_here, ior_there);
+        glass.fresnel = oracle_dielectric(s, ior_here, ior_there, solid && !s->front);
     double margin = fabs(1.0 - eta * eta * (1.0 - s->cosine * s->cosine));
     w->report->critical = fmin(w->report->critical, margin);
     glass.through = scaled(s->viewer, -1.0);

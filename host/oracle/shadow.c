@@ -49,7 +49,7 @@ vector oracle_pass_straight(void *state, const oracle_hit *hit, vector direction
         media_leave(&way->inside, s.index);
     double f = 0.0;
     if (!w->view->no_fresnel)
-        f = largest(oracle_dielectric(&s, 1.0, m->ior));
+        f = largest(oracle_dielectric(&s, 1.0, m->ior, false));
     f += (1.0 - f) * oracle_clearcoat_of(w, &s) * oracle_fresnel(s.clearcoat_cosine, 1.0, 1.5);
     double glass = m->unlit || m->mirror >= 0.0 ? 0.0 : (1.0 - s.metallic) * s.transmission;
     double gone = 1.0 - s.coverage;

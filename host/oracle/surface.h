@@ -66,8 +66,8 @@ vector oracle_tinted(const surface *s, double f0);
 
 // The reflectance of a dielectric, with its film, for light in a medium of index `here` on a medium
 // of index `there`. KHR_materials_specular changes F0, but keeps the weight of Fresnel's term
-// between F0 and 1.
-vector oracle_dielectric(const surface *s, double here, double there);
+// between F0 and 1. `leaves`: the light leaves a solid, whose film is on the other side.
+vector oracle_dielectric(const surface *s, double here, double there, bool leaves);
 
 // The same of smooth paint in empty space. With high indices it has Schlick's edge (rule 6).
 vector oracle_coat(const surface *s, double ior);

@@ -10,7 +10,7 @@
 static const trial_case *const groups[] = {
     hit_cases,         scale_cases, spawn_cases,   normal_cases,   refraction_cases, solid_cases,
     environment_cases, path_cases,  surface_cases, rough_cases,    rim_cases,        media_cases,
-    light_cases,       image_cases, place_cases,   material_cases, output_cases};
+    light_cases,       image_cases, place_cases,   material_cases, output_cases,     chance_cases};
 
 // The cases of a quick run. Together they cover most of the kernels.
 static const char *const quick[] = {

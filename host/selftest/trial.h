@@ -29,7 +29,7 @@ typedef struct trial_case {
 extern const trial_case hit_cases[], scale_cases[], spawn_cases[], normal_cases[],
     refraction_cases[], solid_cases[], environment_cases[], path_cases[], surface_cases[],
     rough_cases[], rim_cases[], media_cases[], light_cases[], image_cases[], place_cases[],
-    material_cases[], output_cases[];
+    material_cases[], output_cases[], chance_cases[];
 
 // ---- Measures ----------------------------------------------------------------------------------
 // Each function adds a measure to the trial's result. Texts are static.
