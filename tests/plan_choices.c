@@ -101,38 +101,40 @@ static glint_settings random_settings(void)
     return s;
 }
 
-static glint_status random_plan(glint_plan *plan, glint_error *error)
-{
-    static float normals[9 * MATERIALS];
-    static const glint_capabilities devices[] = {
-        {.is_cpu = true, .has_double = true, .native_float_width = 16, .name = "wide"},
-        {.is_cpu = true, .has_double = true, .native_float_width = 4, .name = "narrow"},
-        {.is_gpu = true, .has_double = true, .native_float_width = 1, .name = "gpu"}};
-    static glint_texture texture = {.width = 1, .height = 1};
-    static glint_textures textures = {.count = 1, .textures = &texture};
+// A scene and what its pointers name.
+typedef struct random_scene {
+    glint_scene scene;
     glint_material materials[MATERIALS];
     glint_instance instances[MATERIALS];
     glint_component components[MATERIALS];
-    glint_solid_record records[MATERIALS] = {{0}};
-    glint_punctual_light light = {.kind = GLINT_PUNCTUAL_POINT, .color = {1, 1, 1}};
+    glint_punctual_light light;
+} random_scene;
+
+static void fill_scene(random_scene *s)
+{
+    static float normals[9 * MATERIALS];
+    static glint_texture texture = {.width = 1, .height = 1};
+    static glint_textures textures = {.count = 1, .textures = &texture};
     const size_t count = chance(0.02) ? 0 : chance(0.5) ? 1 : MATERIALS;
     const bool textured = count > 0 && chance(0.5); // the loader: tangents come with coordinates
     for (size_t i = 0; i < count; i++) {
-        materials[i] = random_material(textured);
-        instances[i] =
-            (glint_instance){.first_triangle = i, .triangle_count = 1, .material = (uint32_t)i};
-        components[i] = (glint_component){.instance = (uint32_t)i,
-                                          .material = (uint32_t)i,
-                                          .triangle_count = 1,
-                                          .closed = true,
-                                          .convex = chance(0.5)};
+        const uint32_t number = (uint32_t)i;
+        s->materials[i] = random_material(textured);
+        s->instances[i] =
+            (glint_instance){.first_triangle = i, .triangle_count = 1, .material = number};
+        s->components[i] = (glint_component){.instance = number,
+                                             .material = number,
+                                             .triangle_count = 1,
+                                             .closed = true,
+                                             .convex = chance(0.5)};
     }
-    const glint_scene scene = {
+    s->light = (glint_punctual_light){.kind = GLINT_PUNCTUAL_POINT, .color = {1, 1, 1}};
+    s->scene = (glint_scene){
         .triangle_count = count,
         .material_count = count,
-        .materials = materials,
+        .materials = s->materials,
         .instance_count = count,
-        .instances = instances,
+        .instances = s->instances,
         .unit = 1,
         .normals = chance(0.7) ? normals : NULL,
         .textures = textured ? &textures : NULL,
@@ -140,12 +142,24 @@ static glint_status random_plan(glint_plan *plan, glint_error *error)
                           .second_texcoords = textured && chance(0.5),
                           .colors = count > 0 && chance(0.3),
                           .tangents = textured && chance(0.5)},
-        .lights = &light,
+        .lights = &s->light,
         .light_count = chance(0.3) ? 1 : 0,
         .parts = {.count = count > 0 && chance(0.2) ? 2 : 0},
         .moves = chance(0.1),
     };
-    const glint_topology topology = {.component_count = count, .components = components};
+}
+
+static glint_status random_plan(glint_plan *plan, glint_error *error)
+{
+    static const glint_capabilities devices[] = {
+        {.is_cpu = true, .has_double = true, .native_float_width = 16, .name = "wide"},
+        {.is_cpu = true, .has_double = true, .native_float_width = 4, .name = "narrow"},
+        {.is_gpu = true, .has_double = true, .native_float_width = 1, .name = "gpu"}};
+    glint_solid_record records[MATERIALS] = {{0}};
+    random_scene s;
+    fill_scene(&s);
+    const size_t count = s.scene.triangle_count;
+    const glint_topology topology = {.component_count = count, .components = s.components};
     glint_contact contact = {.components = {0, 1}, .overlap = true};
     const glint_solids solids = {.contact_count = count > 1 && chance(0.5) ? 1 : 0,
                                  .contacts = &contact,
@@ -153,13 +167,13 @@ static glint_status random_plan(glint_plan *plan, glint_error *error)
                                  .mixed_count = chance(0.1),
                                  .medium_count = count,
                                  .of_triangle = records};
-    const bool is_one_solid = count == 1 && glint_material_lobes(&materials[0]).solid;
+    const bool is_one_solid = count == 1 && glint_material_lobes(&s.materials[0]).solid;
     const glint_sight sight = {.depth = (int)ONE_OF(0, 1, 2),
                                .from_outside = chance(0.5),
                                .exits_escape = is_one_solid && chance(0.5)};
     const glint_cube none = {0};
     const glint_settings settings = random_settings();
-    TRY(glint_plan_make(&(glint_plan_inputs){.scene = &scene,
+    TRY(glint_plan_make(&(glint_plan_inputs){.scene = &s.scene,
                                              .topology = &topology,
                                              .solids = chance(0.7) ? &solids : NULL,
                                              .sight = chance(0.3) ? &sight : NULL,

@@ -123,6 +123,7 @@ static bool receive(int pipe, const glint_child *child, glint_status *status, ch
         }
     }
     if (reply.status == GLINT_OK) {
+        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): both callers have room for it
         *text = receive_text(pipe, child, reply.text_length);
     }
     return reply.status != GLINT_OK || *text != NULL;
@@ -172,12 +173,13 @@ typedef struct running {
     int pipe; // its answer
 } running;
 
-static glint_status start(const glint_child *child, running *started, glint_error *error)
+// Returns false with GLINT_DEVICE_FAILED in `error`.
+static bool start(const glint_child *child, running *started, glint_error *error)
 {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) {
-        return glint_fail(error, GLINT_DEVICE_FAILED, "no pipe to another process: %s",
-                          strerror(errno));
+        glint_fail(error, GLINT_DEVICE_FAILED, "no pipe to another process: %s", strerror(errno));
+        return false;
     }
     const pid_t process = fork();
     if (process == 0) {
@@ -187,10 +189,11 @@ static glint_status start(const glint_child *child, running *started, glint_erro
     close(ends[1]);
     if (process < 0) {
         close(ends[0]);
-        return glint_fail(error, GLINT_DEVICE_FAILED, "no other process: %s", strerror(errno));
+        glint_fail(error, GLINT_DEVICE_FAILED, "no other process: %s", strerror(errno));
+        return false;
     }
     *started = (running){child, process, ends[0]};
-    return GLINT_OK;
+    return true;
 }
 
 // Waits for the answer and for the end of the child.
@@ -211,17 +214,16 @@ static glint_status finish(const running *r, char **text, glint_error *error)
 
 glint_status glint_child_run(const glint_child *child, char **text, glint_error *error)
 {
-    running r;
+    running r = {0};
     *text = NULL;
-    TRY(start(child, &r, error));
-    return finish(&r, text, error);
+    return start(child, &r, error) ? finish(&r, text, error) : GLINT_DEVICE_FAILED;
 }
 
 void glint_children_run(const glint_child *children, size_t count, int at_once,
                         glint_child_answer *answers)
 {
     enum { MOST = 64 };
-    running all[MOST];
+    running all[MOST] = {{0}};
     struct pollfd pipes[MOST];
     const size_t most = at_once < 1 ? 1 : at_once > MOST ? MOST : (size_t)at_once;
     size_t next = 0, together = 0;
@@ -229,8 +231,8 @@ void glint_children_run(const glint_child *children, size_t count, int at_once,
     while (next < count || together > 0) {
         for (; next < count && together < most; next++) {
             glint_child_answer *a = &answers[next];
-            a->status = start(&children[next], &all[together], &a->error);
-            together += a->status == GLINT_OK;
+            a->status = GLINT_DEVICE_FAILED;
+            together += start(&children[next], &all[together], &a->error);
         }
         for (size_t i = 0; i < together; i++) {
             pipes[i] = (struct pollfd){.fd = all[i].pipe, .events = POLLIN};
