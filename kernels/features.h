@@ -14,8 +14,8 @@
 // A special kernel contains the features that one scene needs. A general kernel, compiled with
 // -DGLINT_GENERAL=1, serves every scene that needs no other feature than it has, with the same
 // bits (host/render/general.h).
-// render.cl checks needs and excludes. tests/lint_kernels compiles each feature off and on,
-// together with its needs. Tests compare frames of general and special kernels.
+// render.cl checks needs and excludes. tests/lint_kernels compiles every two features off
+// and on, together with their needs. Tests compare frames of general and special kernels.
 #ifndef GLINT_KERNELS_FEATURES_H
 #define GLINT_KERNELS_FEATURES_H
 

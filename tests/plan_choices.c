@@ -116,7 +116,7 @@ static void fill_scene(random_scene *s)
     static glint_texture texture = {.width = 1, .height = 1};
     static glint_textures textures = {.count = 1, .textures = &texture};
     const size_t count = chance(0.02) ? 0 : chance(0.5) ? 1 : MATERIALS;
-    const bool textured = count > 0 && chance(0.5); // the loader: tangents come with coordinates
+    const bool textured = count > 0 && chance(0.5); // as in files, tangents come with coordinates
     for (size_t i = 0; i < count; i++) {
         const uint32_t number = (uint32_t)i;
         s->materials[i] = random_material(textured);

@@ -197,6 +197,28 @@ static void several_children_work_together(void **state)
     }
 }
 
+// Without a descriptor for a pipe no child starts, and nothing waits for one.
+static void children_that_cannot_start_are_errors(void **state)
+{
+    (void)state;
+    int number = 0;
+    struct rlimit before;
+    glint_child_answer answers[2];
+    const glint_child child = {.work = work_or_crash, .context = &number};
+    const glint_child children[] = {child, child};
+    assert_int_equal(getrlimit(RLIMIT_NOFILE, &before), 0);
+    const struct rlimit none = {.rlim_cur = 3, .rlim_max = before.rlim_max};
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &none), 0);
+    alarm(60);
+    glint_children_run(children, 2, 2, answers);
+    alarm(0);
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(answers[i].status, GLINT_DEVICE_FAILED);
+        assert_non_null(strstr(answers[i].error.message, "no pipe"));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -204,6 +226,7 @@ int main(void)
         cmocka_unit_test(an_error_comes_back_with_its_details),
         cmocka_unit_test(a_child_that_crashes_is_an_error),
         cmocka_unit_test(several_children_work_together),
+        cmocka_unit_test(children_that_cannot_start_are_errors),
         cmocka_unit_test(a_stop_ends_a_child_that_heeds_nothing),
         cmocka_unit_test_setup_teardown(a_child_that_is_abandoned_can_clean_up, scratch_setup,
                                         scratch_teardown),

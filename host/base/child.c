@@ -237,7 +237,9 @@ void glint_children_run(const glint_child *children, size_t count, int at_once,
         for (size_t i = 0; i < together; i++) {
             pipes[i] = (struct pollfd){.fd = all[i].pipe, .events = POLLIN};
         }
-        poll(pipes, (nfds_t)together, -1);
+        if (together > 0) { // else none could be started
+            poll(pipes, (nfds_t)together, -1);
+        }
         for (size_t i = together; i-- > 0;) {
             if (pipes[i].revents != 0) {
                 glint_child_answer *a = &answers[all[i].child - children];

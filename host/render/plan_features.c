@@ -193,7 +193,7 @@ static void decide_optics(const material_census *c, glint_fresnel fresnel, glint
     } else if (glint_plan_shades_vertices(plan)) {
         decide(plan, GLINT_FEATURE_CLEARCOAT, false, "vertices are shaded, without coats");
     }
-    if (exact && !angular) {
+    if (exact && !angular && plan->features[GLINT_FEATURE_SPECULAR].compiled) {
         decide(plan, GLINT_FEATURE_SPECULAR, false, "these settings show paint without its coat");
     }
 }
@@ -251,8 +251,8 @@ static void decide_attributes(const glint_plan_inputs *in, glint_plan *plan)
            textured ? "" : ", and no textures");
 }
 
-// Counts the lights that shine where a material shows them; decide_roughness finds whether one
-// does. Without such lights, decides LIGHTS with the reason.
+// Counts the lights that shine; decide_lights finds whether a material shows them. Without such
+// lights, decides LIGHTS with the reason.
 static glint_status count_lights(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
 {
     const glint_scene *scene = in->scene;
