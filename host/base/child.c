@@ -224,7 +224,7 @@ void glint_children_run(const glint_child *children, size_t count, int at_once,
 {
     enum { MOST = 64 };
     running all[MOST] = {{0}};
-    struct pollfd pipes[MOST];
+    struct pollfd pipes[MOST] = {{0}};
     const size_t most = at_once < 1 ? 1 : at_once > MOST ? MOST : (size_t)at_once;
     size_t next = 0, together = 0;
     memset(answers, 0, count * sizeof *answers);
