@@ -300,7 +300,8 @@ static inline void scatter_paint(const scene_buffers *scene, const surface *s, r
                                  real share, real kept, scattering *out)
 {
     if (HAS(GLOSS)) {
-        mask smooth = HAS_FLAG(*s, GLINT_MATERIAL_GLOSS);
+        mask smooth = HAS_FLAG(*s, GLINT_MATERIAL_GLOSS) &
+                      (s->roughness < (scalar)GLINT_ROUGHNESS_LEAST);
 #if GLINT_ROUGH
         smooth = smooth & !out->rough;
 #endif

@@ -42,9 +42,7 @@ static inline void take_texture(int slot, const texture_color *c, mask here,
         break;
     case GLINT_SLOT_METALLIC_ROUGHNESS:
         s->metallic = SELECT(here, s->metallic * c->b, s->metallic);
-#if GLINT_ROUGH || GLINT_FACETS
         s->roughness = SELECT(here, s->roughness * c->g, s->roughness);
-#endif
         break;
 #if GLINT_NORMAL_MAPS
     case GLINT_SLOT_NORMAL:

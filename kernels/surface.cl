@@ -37,9 +37,7 @@ typedef struct surface {
     mask outside; // the viewer is on the side from which the triangle winds left
     real3 base_color, emission;
     real metallic, transmission, ior, blend;
-#if GLINT_ROUGH || GLINT_FACETS
     real roughness;
-#endif
 #if GLINT_SPECULAR
     real specular;        // factor of a dielectric's reflection
     real3 specular_color; // factor of its reflection at right angles
@@ -473,9 +471,7 @@ static inline void set_material(const scene_buffers *scene, surface *s, mask yes
     s->metallic = SELECT(yes, real_of(m->metallic), s->metallic);
     s->transmission = SELECT(yes, real_of(m->transmission), s->transmission);
     s->ior = SELECT(yes, real_of(m->ior), s->ior);
-#if GLINT_ROUGH || GLINT_FACETS
     s->roughness = SELECT(yes, real_of(m->roughness), s->roughness);
-#endif
 #if GLINT_SPECULAR
     if (HAS(SPECULAR)) {
         s->specular = SELECT(yes, real_of(m->specular), s->specular);

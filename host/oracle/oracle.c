@@ -43,7 +43,7 @@ static void follow(walk *w, const path *p)
         report->edge = fmin(report->edge, edge);
     }
     if (hit.triangle < 0) {
-        oracle_escape(w, p, p->direction, p->weight);
+        oracle_escape(w, p);
         return;
     }
     // Arrive at the surface, with the media on both sides.

@@ -107,6 +107,15 @@ typedef struct oracle_punctual {
 // the surface.
 typedef void (*oracle_light)(const void *context, const double direction[3], double rgb[3]);
 
+// Where the environment's light comes from: the inside of a box or a sphere around the scene.
+// World space, metres.
+typedef struct oracle_proxy {
+    bool sphere;
+    double center[3]; // where the environment was seen from
+    double middle[3]; // of the box or sphere
+    double half[3];   // half of the box's edges; a sphere has its radius in all three
+} oracle_proxy;
+
 typedef struct oracle_tree oracle_tree;
 
 typedef struct oracle_scene {
@@ -117,6 +126,7 @@ typedef struct oracle_scene {
     oracle_light radiance;       // E(d)
     oracle_light irradiance;     // E(n)/π: cosine-weighted mean of the radiance about n
     const void *context;         // passed to `radiance` and `irradiance`
+    const oracle_proxy *proxy;   // for the radiance; NULL: the environment is infinitely far away
     double environment_rotation; // degrees about +Y, counter-clockwise seen from above
     const oracle_punctual *lights;
     int light_count;

@@ -30,15 +30,36 @@ static void add(walk *w, vector weight, vector radiance)
     w->radiance = plus(w->radiance, times(weight, radiance));
 }
 
-// Adds a path's light where it ends. Rule 9 applies if the path has met nothing.
-void oracle_escape(walk *w, const path *p, vector direction, vector weight)
+// The direction from the proxy's centre to the place where a ray leaves the proxy.
+static vector toward_proxy(const oracle_proxy *proxy, vector o, vector d)
 {
+    double exit = INFINITY, along = 0.0, squared = -proxy->half[0] * proxy->half[0];
+    for (int k = 0; k < 3; k++) {
+        double from = o.at[k] - proxy->middle[k];
+        double side = d.at[k] > 0.0 ? proxy->half[k] : -proxy->half[k];
+        exit = d.at[k] != 0.0 ? fmin(exit, (side - from) / d.at[k]) : exit;
+        along += from * d.at[k];
+        squared += from * from;
+    }
+    if (proxy->sphere)
+        exit = sqrt(along * along - squared) - along;
+    vector place = plus(o, scaled(d, exit));
+    for (int k = 0; k < 3; k++)
+        place.at[k] -= proxy->center[k];
+    return scaled(place, 1.0 / sqrt(dot(place, place)));
+}
+
+// Adds a path's light where it ends. Rule 9 applies if the path has met nothing.
+void oracle_escape(walk *w, const path *p)
+{
+    const oracle_proxy *proxy = w->scene->proxy;
+    vector seen = proxy != NULL ? toward_proxy(proxy, p->origin, p->direction) : p->direction;
     if (p->holds)
-        add(w, weight, p->held);
+        add(w, p->weight, p->held);
     else if (w->view->transparent && p->met == 0)
-        w->uncovered += largest(weight);
+        w->uncovered += largest(p->weight);
     else
-        add(w, weight, environment(w->scene, w->scene->radiance, direction));
+        add(w, p->weight, environment(w->scene, w->scene->radiance, seen));
 }
 
 // The place where a ray leaves a surface; see oracle_view.start. Rounding the coordinates by a
@@ -64,6 +85,10 @@ static void branch(walk *w, const path *from, const surface *s, vector direction
     double share = largest(weight);
     if (share == 0.0)
         return;
+    path next = *from;
+    next.origin = w->view->start != 0.0 ? start_of(w, s, direction) : s->point;
+    next.direction = direction;
+    next.weight = weight;
     oracle_report *report = w->report;
     bool by_depth = from->met >= w->depth;
     bool by_weight = !by_depth && share < w->view->min_weight;
@@ -74,13 +99,9 @@ static void branch(walk *w, const path *from, const surface *s, vector direction
         report->truncated_by_depth += by_depth ? share : 0.0;
         report->truncated_by_weight += by_depth ? 0.0 : share;
         report->exhausted = report->exhausted || exhausted;
-        oracle_escape(w, from, direction, weight);
+        oracle_escape(w, &next);
         return;
     }
-    path next = *from;
-    next.origin = w->view->start != 0.0 ? start_of(w, s, direction) : s->point;
-    next.direction = direction;
-    next.weight = weight;
     next.left = s->triangle;
     if (w->scene->overlaps) {
         next.origin = oracle_start_beside(w->scene, s->triangle, s->point, direction);

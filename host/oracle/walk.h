@@ -36,8 +36,8 @@ struct walk {
     void (*follow)(walk *, const path *); // rule 7: continues to the next surface
 };
 
-// Adds a path's light along its direction, where it ends.
-void oracle_escape(walk *w, const path *p, vector direction, vector weight);
+// Adds the environment's light along the path's ray, where it ends.
+void oracle_escape(walk *w, const path *p);
 
 // Rule 5: absorbs light along the segment, `distance` long, that ends at this surface.
 void oracle_absorb(const oracle_scene *scene, path *p, const surface *s, double distance);

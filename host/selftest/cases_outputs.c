@@ -121,42 +121,16 @@ cleanup:
 
 // ---- Terms --------------------------------------------------------------------------------------
 
-// Number and layout of the stored terms: see terms.h.
-enum { TERMS = 8, OF_PIXEL = 4, OF_TERM = 7 };
-
-// Sums a pixel's terms under E(d) = ½ + ½d, whose irradiance over π is ½ + ⅓n.
-static void sum_terms(const glint_layers *layers, int p, double sum[3])
-{
-    for (int k = 0; k < 3; k++) {
-        sum[k] = (double)layers->channels[k].values[p];
-    }
-    for (int i = 0; i < TERMS; i++) {
-        const glint_channel *term = &layers->channels[OF_PIXEL + OF_TERM * i];
-        for (int k = 0; k < 3; k++) {
-            const double along = (double)term[k].values[p];
-            const double light = term[3].values[p] == 0 ? 0.5 + along / 2 : 0.5 + along / 3;
-            sum[k] += (double)term[4 + k].values[p] * light;
-        }
-    }
-}
-
 static glint_status terms(trial *t)
 {
     glint_measure *m = trial_error(t, "sums beside the picture", "of white", 4e-4);
     glint_scene scene = {0};
     judged frame = {0};
     glint_settings settings = small_frame(t, 3);
-    settings.terms = TERMS;
+    settings.terms = 8;
     glint_status status;
     TRY_OR(cleanup, status, show(t, 2, &settings, &scene, &frame));
-    for (int p = 0; p < settings.width * settings.height; p++) {
-        double sum[3];
-        sum_terms(&frame.picture.layers, p, sum);
-        for (int k = 0; k < 3; k++) {
-            measure_value(m, sum[k], frame.picture.values[4 * p + k], 1, "pixel %d, value %d", p,
-                          k);
-        }
-    }
+    judged_compare_terms(&frame, m);
 cleanup:
     judged_end(&frame);
     glint_scene_free(&scene);
@@ -283,27 +257,6 @@ cleanup:
     return status;
 }
 
-// Finds the point where a ray from o along d leaves the sphere or box about `middle`.
-static void leave_proxy(const glint_proxy *proxy, const double o[3], const double d[3],
-                        double place[3])
-{
-    const double middle[3] = {proxy->middle.x, proxy->middle.y, proxy->middle.z};
-    const double half[3] = {proxy->half_extent.x, proxy->half_extent.y, proxy->half_extent.z};
-    double exit = INFINITY, along = 0, squared = -half[0] * half[0];
-    for (int k = 0; k < 3; k++) {
-        const double side = middle[k] + (d[k] > 0 ? half[k] : -half[k]);
-        exit = d[k] != 0 ? fmin(exit, (side - o[k]) / d[k]) : exit;
-        along += (o[k] - middle[k]) * d[k];
-        squared += (o[k] - middle[k]) * (o[k] - middle[k]);
-    }
-    if (proxy->kind == GLINT_PROXY_SPHERE) {
-        exit = sqrt(along * along - squared) - along;
-    }
-    for (int k = 0; k < 3; k++) {
-        place[k] = o[k] + exit * d[k];
-    }
-}
-
 // Compares the view from inside a proxy, directly and in a mirror. The mirror image of the eye is
 // outside.
 static glint_status see_proxy(trial *t, const glint_proxy *proxy, glint_measure *m)
@@ -322,29 +275,7 @@ static glint_status see_proxy(trial *t, const glint_proxy *proxy, glint_measure 
     shape_add_quad(&s, corners, MATERIAL_MIRROR);
     TRY_OR(cleanup, status, shape_end(&s, &scene, t->error));
     TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
-    // Follow each pixel's ray by formula, to the proxy.
-    for (int p = 0; p < settings.width * settings.height; p++) {
-        const int column = p % settings.width, row = p / settings.width;
-        const double at[2] = {column + 0.5, row + 0.5};
-        const oracle_ray ray = oracle_primary_ray(&frame.view, at);
-        const oracle_hit hit = oracle_closest_hit(&frame.judge.scene, &ray, -1);
-        double o[3], d[3], place[3], length = 0;
-        for (int k = 0; k < 3; k++) {
-            o[k] = ray.origin[k] + (hit.triangle >= 0 ? hit.distance * ray.direction[k] : 0);
-            d[k] = ray.direction[k] * (hit.triangle >= 0 && k == 2 ? -1 : 1);
-        }
-        leave_proxy(proxy, o, d, place);
-        const double center[3] = {proxy->center.x, proxy->center.y, proxy->center.z};
-        for (int k = 0; k < 3; k++) {
-            place[k] -= center[k];
-            length += place[k] * place[k];
-        }
-        // Compare the colours.
-        for (int k = 0; k < 3; k++) {
-            measure_value(m, frame.picture.values[4 * p + k], 0.5 + 0.5 * place[k] / sqrt(length),
-                          1, "pixel (%d, %d), value %d", column, row, k);
-        }
-    }
+    judged_compare(&frame, m);
 cleanup:
     judged_end(&frame);
     glint_scene_free(&scene);

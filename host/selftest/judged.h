@@ -12,6 +12,7 @@ typedef struct judged {
     const glint_proxy *proxy;
     trial_picture picture;
     judge judge;
+    oracle_proxy seen_proxy; // the proxy as the oracle takes it
     // Has the frame's depth. The user may change it.
     oracle_view view;
 } judged;
@@ -31,6 +32,17 @@ double judged_spread(const judged *of, int p, double start, const double expecte
 // Compares all values of the pixels in which no decision is close: an edge, the critical angle, the
 // least weight, a texture's jump.
 void judged_compare(const judged *of, glint_measure *errors);
+
+// The same as a share of values that are off by more than `bound`.
+void judged_count(const judged *of, double bound, glint_measure *share);
+
+// Compares the sum of each pixel's terms, which layers hold, with the picture. Terms that did not
+// fit may be missing, with their whole weight.
+void judged_compare_terms(const judged *of, glint_measure *errors);
+
+// Compares the triangles and barycentric weights that a frame of hits holds with the oracle's.
+// Leaves out pixels near edges.
+void judged_compare_hits(const judged *of, glint_measure *errors);
 
 // The root mean square of all differences in R, G and B, over the mean.
 double judged_rmse(const judged *of);

@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #define GLINT_SELFTEST_MEASURES 16      // of a case, at most
+#define GLINT_SELFTEST_FEATURE_SETS 128 // of a case that are kept, at most
 #define GLINT_SELFTEST_RAYS 262144      // default of the cases that count leaks
 #define GLINT_SELFTEST_QUICK_RAYS 16384 // the same in a quick run
 #define GLINT_SELFTEST_RAYS_MAX 1000000000000.0
@@ -49,6 +50,9 @@ typedef struct glint_selftest_result {
     bool expected;
     char reason[GLINT_MESSAGE_CAPACITY]; // why it was skipped, or the driver's message
     double ms;                           // wall-clock time, with the compilation of kernels
+    // The features of the judged frames' plans: bit 1 << glint_feature. Each set once.
+    uint64_t feature_sets[GLINT_SELFTEST_FEATURE_SETS];
+    int feature_set_count;
 } glint_selftest_result;
 
 // Zero, except for the device, means the defaults.

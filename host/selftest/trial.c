@@ -342,6 +342,23 @@ static glint_status read_picture(glint_renderer *renderer, const glint_image *im
     return GLINT_OK;
 }
 
+// Notes which features the frame's plan has.
+static void note_features(const glint_plan *plan, glint_selftest_result *result)
+{
+    uint64_t set = 0;
+    _Static_assert(GLINT_FEATURE_COUNT <= 64, "a set has a bit for each feature");
+    for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
+        set |= (uint64_t)plan->features[i].compiled << i;
+    }
+    int k = 0;
+    while (k < result->feature_set_count && result->feature_sets[k] != set) {
+        k++;
+    }
+    if (k == result->feature_set_count && k < GLINT_SELFTEST_FEATURE_SETS) {
+        result->feature_sets[result->feature_set_count++] = set;
+    }
+}
+
 glint_status trial_frame(trial *t, const glint_renderer_inputs *inputs, const glint_camera *camera,
                          trial_picture *picture)
 {
@@ -354,6 +371,9 @@ glint_status trial_frame(trial *t, const glint_renderer_inputs *inputs, const gl
            glint_renderer_frame(
                &(glint_frame_request){renderer, camera, NULL, &image, &picture->report}, t->error));
     TRY_OR(cleanup, status, read_picture(renderer, &image, picture, t->error));
+    if (!inputs->settings->all_features) {
+        note_features(&picture->plan, t->result);
+    }
     if (inputs->settings->aovs != 0 || inputs->settings->terms > 0) {
         TRY_OR(cleanup, status, glint_renderer_layers(renderer, &picture->layers, t->error));
     }

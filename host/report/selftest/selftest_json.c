@@ -1,6 +1,8 @@
 // Writes the JSON of glint selftest --json. See selftest_json.h.
 #include "report/selftest/selftest_json.h"
 
+#include <stdio.h>
+
 static json_t *measure_json(const glint_measure *m)
 {
     json_t *object = json_object();
@@ -14,9 +16,26 @@ static json_t *measure_json(const glint_measure *m)
     return object;
 }
 
+// The names of the features in a set, separated by spaces.
+static json_t *feature_set_json(uint64_t set)
+{
+    char names[64 * 24] = "";
+    size_t length = 0;
+    for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
+        if ((set >> i & 1) != 0 && length < sizeof names) {
+            length += (size_t)snprintf(names + length, sizeof names - length, "%s%s",
+                                       length > 0 ? " " : "", glint_feature_name((glint_feature)i));
+        }
+    }
+    return json_string(names);
+}
+
 static json_t *result_json(const glint_selftest_result *r)
 {
-    json_t *object = json_object(), *measures = json_array();
+    json_t *object = json_object(), *measures = json_array(), *sets = json_array();
+    for (int i = 0; i < r->feature_set_count; i++) {
+        (void)json_array_append_new(sets, feature_set_json(r->feature_sets[i]));
+    }
     for (int i = 0; i < r->measure_count; i++) {
         (void)json_array_append_new(measures, measure_json(&r->measures[i]));
     }
@@ -29,6 +48,7 @@ static json_t *result_json(const glint_selftest_result *r)
     glint_json_put_text(object, "reason", r->reason);
     glint_json_put_real(object, "milliseconds", r->ms);
     glint_json_put(object, "measures", measures);
+    glint_json_put(object, "feature_sets", sets);
     return object;
 }
 
