@@ -36,7 +36,7 @@ struct walk {
     void (*follow)(walk *, const path *); // rule 7: continues to the next surface
 };
 
-// Adds the environment's light along the path's ray, where it ends.
+// Ends a path at its ray: adds the light that it holds, or the environment's along the ray.
 void oracle_escape(walk *w, const path *p);
 
 // Rule 5: absorbs light along the segment, `distance` long, that ends at this surface.

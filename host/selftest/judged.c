@@ -53,21 +53,10 @@ static bool is_decided(const oracle_report *report)
            report->jump > 1e-4;
 }
 
-void judged_compare(const judged *of, glint_measure *errors)
-{
-    const int width = of->picture.width;
-    for (int p = 0; p < width * of->picture.height; p++) {
-        double expected[4];
-        oracle_report report;
-        judged_pixel(of, p, expected, &report);
-        for (int k = 0; is_decided(&report) && k < 4; k++) {
-            measure_value(errors, of->picture.values[4 * p + k], expected[k], 1,
-                          "pixel (%d, %d), value %d", p % width, p / width, k);
-        }
-    }
-}
-
-void judged_count(const judged *of, double bound, glint_measure *share)
+// Measures the errors of all decided values, or the share of values off by more than `bound`; the
+// other measure is NULL.
+static void compare_values(const judged *of, glint_measure *errors, double bound,
+                           glint_measure *share)
 {
     const int width = of->picture.width;
     for (int p = 0; p < width * of->picture.height; p++) {
@@ -76,11 +65,26 @@ void judged_count(const judged *of, double bound, glint_measure *share)
         judged_pixel(of, p, expected, &report);
         for (int k = 0; is_decided(&report) && k < 4; k++) {
             const double got = of->picture.values[4 * p + k];
-            measure_event(share, !(fabs(got - expected[k]) <= bound),
-                          "pixel (%d, %d), value %d: expected %.9g, got %.9g", p % width, p / width,
-                          k, expected[k], got);
+            if (errors != NULL) {
+                measure_value(errors, got, expected[k], 1, "pixel (%d, %d), value %d", p % width,
+                              p / width, k);
+            } else {
+                measure_event(share, !(fabs(got - expected[k]) <= bound),
+                              "pixel (%d, %d), value %d: expected %.9g, got %.9g", p % width,
+                              p / width, k, expected[k], got);
+            }
         }
     }
+}
+
+void judged_compare(const judged *of, glint_measure *errors)
+{
+    compare_values(of, errors, 0, NULL);
+}
+
+void judged_count(const judged *of, double bound, glint_measure *share)
+{
+    compare_values(of, NULL, bound, share);
 }
 
 // Layout of the stored terms: see terms.h.
@@ -120,10 +124,10 @@ void judged_compare_terms(const judged *of, glint_measure *errors)
     for (int p = 0; p < of->picture.width * of->picture.height; p++) {
         double sum[3];
         sum_terms(channels, end - first, of->judge.scene.environment_rotation, p, sum);
-        for (int k = 0; k < 3; k++) {
-            const double off = fabs(sum[k] - of->picture.values[4 * p + k]);
-            const double dropped = (double)channels[3].values[p];
-            measure_error(errors, off <= dropped ? 0 : off - dropped, "pixel %d, value %d", p, k);
+        const bool is_whole = channels[3].values[p] == 0; // no term was dropped
+        for (int k = 0; is_whole && k < 3; k++) {
+            measure_value(errors, sum[k], of->picture.values[4 * p + k], 1, "pixel %d, value %d", p,
+                          k);
         }
     }
 }

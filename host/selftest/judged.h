@@ -36,8 +36,8 @@ void judged_compare(const judged *of, glint_measure *errors);
 // The same as a share of values that are off by more than `bound`.
 void judged_count(const judged *of, double bound, glint_measure *share);
 
-// Compares the sum of each pixel's terms, which layers hold, with the picture. Terms that did not
-// fit may be missing, with their whole weight.
+// Compares the sum of each pixel's terms, which layers hold, with the picture. Leaves out
+// pixels whose terms did not all fit.
 void judged_compare_terms(const judged *of, glint_measure *errors);
 
 // Compares the triangles and barycentric weights that a frame of hits holds with the oracle's.
