@@ -25,7 +25,7 @@
 #include "render/plan.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
-#include "scene/topology.h"
+#include "scene/shape/topology.h"
 #include "selftest/selftest.h"
 
 #endif

@@ -139,7 +139,7 @@ typedef struct glint_split_vector {
 #define GLINT_MATERIAL_COVER 64u       // its alpha is its coverage
 #define GLINT_MATERIAL_DISPERSIVE 128u // a solid whose index of refraction depends on wavelength
 
-// Slots of a material's textures: glint_texture_slot of host/scene/texture.h.
+// Slots of a material's textures: glint_texture_slot of host/scene/texture/texture.h.
 #define GLINT_SLOT_BASE_COLOR 0
 #define GLINT_SLOT_METALLIC_ROUGHNESS 1
 #define GLINT_SLOT_OCCLUSION 2

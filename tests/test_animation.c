@@ -1,6 +1,6 @@
 // Tests animated scenes against files with the nodes in their places at that time. Also tests
 // animations that glint cannot read.
-#include "scene/animation.h"
+#include "scene/gltf/curve.h"
 #include "scene/scene.h"
 #include "support/gltf_text.h"
 #include "support/scratch.h"

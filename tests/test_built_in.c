@@ -1,6 +1,6 @@
 // Tests the built-in scenes. They must have the properties that the loader checks in files.
 #include "scene/built_in.h"
-#include "scene/topology.h"
+#include "scene/shape/topology.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 // Tests keyframes against closed forms.
-#include "scene/animation.h"
+#include "scene/gltf/curve.h"
 
 #include <float.h>
 #include <math.h>

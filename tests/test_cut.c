@@ -5,7 +5,7 @@
 #include "support/cut.h"
 #include "support/render.h"
 
-#include "scene/solids.h"
+#include "scene/shape/solids.h"
 
 #include <math.h>
 #include <setjmp.h>

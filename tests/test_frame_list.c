@@ -1,7 +1,7 @@
 // Tests lists of frames, their parts and their file names.
 #include "base/random.h"
-#include "render/frame_list.h"
-#include "render/frame_name.h"
+#include "cli/common/frame_list.h"
+#include "cli/common/frame_name.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 // Tests which lobes a material has, by its factors.
-#include "scene/material.h"
+#include "scene/material/material.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 // Tests overrides of materials (--material) and variants of materials (--variant).
-#include "scene/material_override.h"
+#include "scene/material/material_override.h"
 
 #include "support/gltf_text.h"
 #include "support/scratch.h"

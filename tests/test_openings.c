@@ -1,5 +1,5 @@
 // Tests which solids are said to be inside out, open, or of several media.
-#include "scene/solids.h"
+#include "scene/shape/solids.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

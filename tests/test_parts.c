@@ -1,6 +1,6 @@
 // Tests small parts: which triangles get an origin of their own, and with what precision.
-#include "scene/digits.h"
-#include "scene/parts.h"
+#include "scene/shape/digits.h"
+#include "scene/shape/parts.h"
 #include "scene/subset.h"
 #include "support/gltf_text.h"
 #include "support/scratch.h"

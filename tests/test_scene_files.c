@@ -2,7 +2,7 @@
 // and models from elsewhere.
 #include "scene/scene.h"
 
-#include "scene/topology.h"
+#include "scene/shape/topology.h"
 #include "support/gltf_text.h"
 #include "support/scratch.h"
 

@@ -1,5 +1,5 @@
 // Tests each material's share of the picture against areas in closed form.
-#include "scene/shares.h"
+#include "scene/shape/shares.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 // Tests which solids touch and overlap, and which of two overlapping solids gives way.
-#include "scene/solids.h"
+#include "scene/shape/solids.h"
 
 #include "support/bodies.h"
 #include "support/gltf_text.h"

@@ -1,5 +1,5 @@
 // Tests --texture-size, which drops texture levels, and joined images.
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 #include "support/scratch.h"
 #include "support/textured_plane.h"
 

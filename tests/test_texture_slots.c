@@ -1,7 +1,7 @@
 // Tests each texture slot of a material, and colours and alpha of vertices. A texture of one value
 // must act as a factor of this value. Bent normals and layers of planes have closed forms. Also
 // tests the substitutes for unreadable textures.
-#include "scene/material_override.h"
+#include "scene/material/material_override.h"
 #include "support/bridge.h"
 #include "support/gltf_text.h"
 #include "support/render.h"

@@ -1,5 +1,5 @@
 // Tests proofs about surfaces: open or closed, convex or not, nested or not.
-#include "scene/topology.h"
+#include "scene/shape/topology.h"
 
 #include <math.h>
 #include <setjmp.h>

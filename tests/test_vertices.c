@@ -2,7 +2,7 @@
 // through it, onto a small plane of its own. The test interpolates the results between the corners
 // of the triangle that a pixel sees.
 #include "environment/irradiance.h"
-#include "scene/icosphere.h"
+#include "scene/shape/icosphere.h"
 #include "support/bridge.h"
 #include "support/render.h"
 

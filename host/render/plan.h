@@ -11,9 +11,9 @@
 #include "kernels/features.h"
 #include "render/settings.h"
 #include "scene/scene.h"
-#include "scene/sight.h"
-#include "scene/solids.h"
-#include "scene/topology.h"
+#include "scene/shape/sight.h"
+#include "scene/shape/solids.h"
+#include "scene/shape/topology.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 // Builds and refits the trees of plans. See plan.h.
 #include "render/plan.h"
-#include "scene/complete_normals.h"
+#include "scene/shape/complete_normals.h"
 
 #include <stdlib.h>
 

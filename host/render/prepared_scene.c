@@ -3,7 +3,7 @@
 
 #include "base/clock.h"
 #include "render/plan_parts.h"
-#include "scene/topology.h"
+#include "scene/shape/topology.h"
 
 static bool has_solids(const glint_scene *scene)
 {

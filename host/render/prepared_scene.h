@@ -5,7 +5,7 @@
 #include "accel/bvh.h"
 #include "base/status.h"
 #include "render/plan.h"
-#include "scene/sight.h"
+#include "scene/shape/sight.h"
 
 // Zero is valid.
 typedef struct glint_prepared_scene {

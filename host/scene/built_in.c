@@ -7,7 +7,7 @@
 #include "scene/built_in.h"
 
 #include "base/memory.h"
-#include "scene/icosphere.h"
+#include "scene/shape/icosphere.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -6,8 +6,8 @@
 #include "base/vector.h"
 #include "scene/camera.h"
 #include "scene/lights.h"
-#include "scene/material.h"
-#include "scene/parts.h"
+#include "scene/material/material.h"
+#include "scene/shape/parts.h"
 
 #include <stdbool.h>
 #include <stddef.h>

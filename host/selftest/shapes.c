@@ -2,7 +2,7 @@
 #include "selftest/shapes.h"
 
 #include "base/memory.h"
-#include "scene/icosphere.h"
+#include "scene/shape/icosphere.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -71,9 +71,9 @@ void shape_add_ball(shape *s, const shape_ball *ball);
 glint_status shape_end(shape *s, glint_scene *scene, glint_error *error);
 glint_status shape_end_with_unit(shape *s, double unit, glint_scene *scene, glint_error *error);
 
-// Ends a scene that may have small parts, as loaders find them (scene/parts.h). *exact gets its
-// corners, [triangle][3][3] in stored coordinates. The caller frees it with free(), whatever the
-// outcome. `exact` may be NULL.
+// Ends a scene that may have small parts, as loaders find them (scene/shape/parts.h). *exact gets
+// its corners, [triangle][3][3] in stored coordinates. The caller frees it with free(), whatever
+// the outcome. `exact` may be NULL.
 glint_status shape_end_with_parts(shape *s, double unit, glint_scene *scene, double **exact,
                                   glint_error *error);
 

@@ -9,16 +9,16 @@
 // leaves its input there. The image decoder's child processes may die, and are counted; the parent
 // must live. Exit status 0: all inputs were read or refused. The same seed gives the same inputs.
 #include "cli/commands.h"
+#include "cli/common/frame_list.h"
+#include "cli/common/frame_name.h"
 #include "cli/common/options.h"
 #include "environment/environment.h"
 #include "image/image_io.h"
-#include "render/frame_list.h"
-#include "render/frame_name.h"
 #include "report/bench/baseline.h"
 #include "report/farm_report.h"
 #include "report/frame/fingerprint.h"
 #include "scene/scene.h"
-#include "scene/topology.h"
+#include "scene/shape/topology.h"
 
 #include <ctype.h>
 #include <inttypes.h>

@@ -7,7 +7,7 @@
 #include "image/codec.h"
 #include "image/decoder.h"
 #include "scene/built_in.h"
-#include "scene/shares.h"
+#include "scene/shape/shares.h"
 #include "scene/subset.h"
 
 #include <stdio.h>

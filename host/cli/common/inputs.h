@@ -9,7 +9,7 @@
 #include "cli/common/viewpoint.h"
 #include "environment/environment.h"
 #include "render/plan.h"
-#include "scene/material_override.h"
+#include "scene/material/material_override.h"
 #include "scene/scene.h"
 
 // The options that select the inputs and the computation. Texts are borrowed from argv.

@@ -7,13 +7,13 @@
 #include "base/clock.h"
 #include "cli/common/env_output.h"
 #include "cli/common/file_names.h"
+#include "cli/common/frame_list.h"
+#include "cli/common/frame_name.h"
 #include "cli/common/inputs.h"
 #include "cli/common/progress.h"
 #include "cli/common/proxy_option.h"
 #include "device/device.h"
 #include "render/capture.h"
-#include "render/frame_list.h"
-#include "render/frame_name.h"
 #include "scene/subset.h"
 
 #include <math.h>

@@ -9,7 +9,7 @@
 #include "render/general.h"
 #include "render/view.h"
 #include "report/frame/inventory.h"
-#include "scene/digits.h"
+#include "scene/shape/digits.h"
 
 #include <math.h>
 #include <stdio.h>

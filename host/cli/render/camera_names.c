@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "base/plain_text.h"
-#include "render/frame_name.h"
+#include "cli/common/frame_name.h"
 
 #include <ctype.h>
 #include <stdbool.h>

@@ -8,7 +8,7 @@
 #include "cli/render/run.h"
 #include "cli/render/summary.h"
 #include "device/device.h"
-#include "scene/digits.h"
+#include "scene/shape/digits.h"
 
 #include <stdio.h>
 #include <unistd.h>

@@ -2,11 +2,11 @@
 #ifndef GLINT_CLI_RENDER_REQUEST_H
 #define GLINT_CLI_RENDER_REQUEST_H
 
+#include "cli/common/frame_list.h"
+#include "cli/common/frame_name.h"
 #include "cli/common/inputs.h"
 #include "cli/common/proxy_option.h"
 #include "image/image_io.h"
-#include "render/frame_list.h"
-#include "render/frame_name.h"
 
 #include <stdbool.h>
 

@@ -7,9 +7,9 @@
 #include "device/capabilities.h"
 #include "environment/environment.h"
 #include "render/plan.h"
-#include "scene/material_override.h"
+#include "scene/material/material_override.h"
 #include "scene/scene.h"
-#include "scene/topology.h"
+#include "scene/shape/topology.h"
 
 // The subject of a report. All borrowed. Zero is valid; reports leave out what is NULL.
 typedef struct glint_subject {

@@ -1,0 +1,34 @@
+// Reads the scene's file safely: its GLB chunks, its JSON and its buffers.
+#ifndef GLINT_SCENE_GLTF_FILE_HPP
+#define GLINT_SCENE_GLTF_FILE_HPP
+
+#include "scene/gltf/uri.hpp"
+
+#include <string>
+
+namespace glint
+{
+
+struct Document {
+    std::string path;   // as the user gave it
+    std::string folder; // resolved; files that the scene refers to must lie under it
+    json root = json::object();
+    bool has_bin = false; // the file is a GLB with a BIN chunk
+    Bytes bin;
+};
+
+// Reads the file into `document.root` and `document.bin`. It must be a regular file of at most 4
+// GiB; its JSON at most 1 GiB, nested at most 100 deep.
+void read_document(const char *path, Document &document);
+
+// Returns the bytes of a buffer, cut to its byteLength, which must be checked. Removes a data URI's
+// text from the JSON, so that memory does not hold it twice.
+Bytes read_buffer(Document &document, std::size_t index);
+
+// Finds the regular file under the document's folder that a URI names. A FIFO or a device would
+// hang.
+FoundFile find_file(const Document &document, const std::string &uri);
+
+} // namespace glint
+
+#endif

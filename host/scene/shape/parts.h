@@ -1,0 +1,41 @@
+// Small parts of a scene, with origins of their own. A float stores a place to 24 bits of its
+// distance from the origin. For a bead on a wide floor this leaves few bits. So each small part has
+// an anchor, and its corners are stored relative to the anchor.
+#ifndef GLINT_SCENE_SHAPE_PARTS_H
+#define GLINT_SCENE_SHAPE_PARTS_H
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Zero is valid: there are no parts, and the scene's positions are exact.
+typedef struct glint_parts {
+    size_t count;        // number of anchors
+    float (*anchors)[3]; // [count], stored coordinates; owned. The first is (0, 0, 0)
+    uint32_t *part_of;   // [triangle]; owned
+    float *positions;    // [triangle][3 corners][3], relative to the part's anchor; owned
+} glint_parts;
+
+// True if a scene may have small parts, by the width of its smallest triangle in stored units.
+bool glint_parts_may_be_there(double smallest_triangle);
+
+// Finds the parts of triangles, `exact` [count][3 corners][3] in stored coordinates. Triangles that
+// share edges form one part, also if only floats make their edges equal. All triangles of a part
+// use one anchor, so that no ray passes between them (watertight). On failure, and if no part is
+// small, *parts is zero. Errors: GLINT_OUT_OF_MEMORY.
+glint_status glint_parts_find(const double *exact, size_t count, glint_parts *parts,
+                              glint_error *error);
+
+void glint_parts_free(glint_parts *parts);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,167 @@
+// Reads images and makes their mip levels. See texture.h.
+#include "scene/texture/texture.h"
+
+#include "base/memory.h"
+#include "scene/texture/texture_levels.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const char *glint_texture_slot_name(glint_texture_slot slot)
+{
+    static const char *const names[] = {
+        [GLINT_TEXTURE_BASE_COLOR] = "base colour",
+        [GLINT_TEXTURE_METALLIC_ROUGHNESS] = "metallic and roughness",
+        [GLINT_TEXTURE_OCCLUSION] = "occlusion",
+        [GLINT_TEXTURE_NORMAL] = "normal",
+        [GLINT_TEXTURE_EMISSION] = "emission",
+        [GLINT_TEXTURE_TRANSMISSION] = "transmission",
+        [GLINT_TEXTURE_SPECULAR] = "specular",
+        [GLINT_TEXTURE_SPECULAR_COLOR] = "specular colour",
+        [GLINT_TEXTURE_CLEARCOAT] = "clearcoat",
+        [GLINT_TEXTURE_CLEARCOAT_ROUGHNESS] = "clearcoat roughness",
+        [GLINT_TEXTURE_CLEARCOAT_NORMAL] = "clearcoat normal",
+        [GLINT_TEXTURE_ANISOTROPY] = "anisotropy",
+        [GLINT_TEXTURE_SHEEN_COLOR] = "sheen colour",
+        [GLINT_TEXTURE_SHEEN_ROUGHNESS] = "sheen roughness",
+        [GLINT_TEXTURE_DIFFUSE_TRANSMISSION] = "diffuse transmission",
+        [GLINT_TEXTURE_DIFFUSE_TRANSMISSION_COLOR] = "diffuse transmission colour",
+        [GLINT_TEXTURE_IRIDESCENCE] = "iridescence",
+        [GLINT_TEXTURE_IRIDESCENCE_THICKNESS] = "iridescence thickness",
+    };
+    return names[slot];
+}
+
+// ---- An image -----------------------------------------------------------------------------------
+
+// Removes levels that are too large, so that their memory is free before the next image is read.
+static glint_status drop_large_levels(int largest, glint_texture_levels *levels, glint_error *error)
+{
+    glint_texture *t = &levels->texture;
+    int dropped = 0;
+    while (largest > 0 && (t->width > largest || t->height > largest)) {
+        t->width = t->width > 1 ? t->width / 2 : 1;
+        t->height = t->height > 1 ? t->height / 2 : 1;
+        dropped++;
+    }
+    if (dropped == 0) {
+        return GLINT_OK;
+    }
+    const size_t gone = t->first[dropped];
+    levels->texel_count -= gone;
+    t->levels -= dropped;
+    for (int i = 0; i < t->levels; i++) {
+        t->first[i] = t->first[i + dropped] - gone;
+    }
+    uint16_t(*all)[4] = levels->texels;
+    levels->texels = glint_allocate_unset(levels->texel_count, sizeof *levels->texels);
+    if (levels->texels != NULL) {
+        memcpy(levels->texels, all + gone, levels->texel_count * sizeof *levels->texels);
+    }
+    free(all);
+    return levels->texels != NULL ? GLINT_OK : glint_fail_memory(error, "a texture");
+}
+
+static glint_status make(const glint_texture_request *request, const glint_stored *stored,
+                         glint_texture_levels *levels, glint_error *error)
+{
+    const glint_stored_facts *facts = &stored->facts;
+    if (facts->code_bits == 0) {
+        return glint_fail(
+            error, GLINT_BAD_INPUT,
+            "%s: holds floating-point numbers, which textures do not (save it as PNG)",
+            request->source.path);
+    }
+    const int most = 1 << (GLINT_TEXTURE_LEVELS - 1);
+    if (facts->width > most || facts->height > most) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: %d × %d pixels are more than the %d × %d of a texture (make it "
+                          "smaller)",
+                          request->source.path, facts->width, facts->height, most, most);
+    }
+    return glint_texture_levels_make(request, stored, levels, error);
+}
+
+glint_status glint_texture_read(const glint_texture_request *request, int largest,
+                                glint_texture_levels *levels, glint_error *error)
+{
+    *levels = (glint_texture_levels){0};
+    glint_stored stored;
+    TRY(glint_decoder_run(&request->source, false, &stored, error));
+    glint_status status = make(request, &stored, levels, error);
+    glint_stored_free(&stored);
+    if (status == GLINT_OK) {
+        status = drop_large_levels(largest, levels, error);
+    }
+    if (status != GLINT_OK) {
+        free(levels->texels);
+        *levels = (glint_texture_levels){0};
+    }
+    return status;
+}
+
+// ---- All images ---------------------------------------------------------------------------------
+
+glint_status glint_textures_join(glint_texture_levels *images, size_t count,
+                                 glint_textures **textures, glint_error *error)
+{
+    glint_textures *all = glint_allocate(1, sizeof *all);
+    size_t texels = 0;
+    for (size_t i = 0; i < count; i++) {
+        texels += images[i].texel_count;
+    }
+    if (all != NULL) {
+        all->owners = 1;
+        all->textures = glint_allocate(count, sizeof *all->textures);
+        if (count == 1) { // a single image keeps its memory
+            all->texels = images->texels;
+            images->texels = NULL;
+        }
+        if (all->texels == NULL) {
+            all->texels = glint_allocate_unset(texels, sizeof *all->texels);
+        }
+    }
+    if (all == NULL || all->textures == NULL || all->texels == NULL) {
+        glint_textures_release(all);
+        return glint_fail_memory(error, "the textures");
+    }
+    for (size_t i = 0; i < count; i++) {
+        glint_texture *texture = &all->textures[all->count++];
+        *texture = images[i].texture;
+        for (int k = 0; k < texture->levels; k++) {
+            texture->first[k] += all->texel_count;
+        }
+        // NULL: the texels are in place, or the image could not be read.
+        if (images[i].texels != NULL) {
+            memcpy(all->texels + all->texel_count, images[i].texels,
+                   images[i].texel_count * sizeof *all->texels);
+        }
+        all->texel_count += images[i].texel_count;
+        free(images[i].texels);
+        images[i] = (glint_texture_levels){0};
+    }
+    *textures = all;
+    return GLINT_OK;
+}
+
+size_t glint_textures_bytes(const glint_textures *textures)
+{
+    return textures != NULL ? textures->texel_count * sizeof *textures->texels : 0;
+}
+
+glint_textures *glint_textures_share(glint_textures *textures)
+{
+    if (textures != NULL) {
+        __atomic_add_fetch(&textures->owners, 1, __ATOMIC_RELAXED);
+    }
+    return textures;
+}
+
+void glint_textures_release(glint_textures *textures)
+{
+    if (textures != NULL && __atomic_sub_fetch(&textures->owners, 1, __ATOMIC_ACQ_REL) == 0) {
+        free(textures->textures);
+        free(textures->texels);
+        free(textures);
+    }
+}
