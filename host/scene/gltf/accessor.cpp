@@ -1,12 +1,45 @@
-// Reads elements of checked accessors. See accessor.hpp.
+// Opens checked accessors as arrays. See accessor.hpp.
 #include "scene/gltf/accessor.hpp"
 
-#include <algorithm>
+#include "scene/gltf/json.hpp"
 
 namespace glint
 {
 
-const unsigned char Reader::zeros_[64] = {};
+namespace
+{
+
+glint_sparse open_sparse(const Model &model, std::size_t index)
+{
+    const tinygltf::Accessor &accessor = model.accessors[index];
+    const auto &source = accessor.sparse;
+    glint_sparse sparse = {};
+    if (!source.isSparse) {
+        return sparse;
+    }
+    sparse.count = static_cast<std::size_t>(source.count);
+    sparse.index_type = static_cast<glint_component>(source.indices.componentType);
+    sparse.indices = view_data(model, static_cast<std::size_t>(source.indices.bufferView)) +
+                     source.indices.byteOffset;
+    sparse.elements = view_data(model, static_cast<std::size_t>(source.values.bufferView)) +
+                      source.values.byteOffset;
+    const Place place = (Place() / "accessors")[index] / "sparse" / "indices";
+    for (std::size_t k = 0; k < sparse.count; k++) {
+        const std::size_t value = glint_sparse_index(&sparse, k);
+        if (value >= accessor.count) {
+            refuse(place[k], std::to_string(value) + " is out of range (the accessor has " +
+                                 counted(accessor.count, "element") + ")");
+        }
+        const std::size_t before = k > 0 ? glint_sparse_index(&sparse, k - 1) : 0;
+        if (k > 0 && value <= before) {
+            refuse(place[k], std::to_string(value) + " follows " + std::to_string(before) +
+                                 " (sparse indices must ascend)");
+        }
+    }
+    return sparse;
+}
+
+} // namespace
 
 const unsigned char *view_data(const Model &model, std::size_t index)
 {
@@ -14,94 +47,26 @@ const unsigned char *view_data(const Model &model, std::size_t index)
     return model.buffers[static_cast<std::size_t>(view.buffer)].data.data() + view.byteOffset;
 }
 
-Reader::Reader(const Model &model, std::size_t accessor_index)
+glint_array open_array(const Model &model, std::size_t index)
 {
-    const tinygltf::Accessor &accessor = model.accessors[accessor_index];
-    component_ = accessor.componentType;
-    normalized_ = accessor.normalized;
-    count_ = accessor.count;
-    element_size_ = static_cast<std::size_t>(
-                        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_))) *
-                    static_cast<std::size_t>(tinygltf::GetNumComponentsInType(
-                        static_cast<std::uint32_t>(accessor.type)));
+    const tinygltf::Accessor &accessor = model.accessors[index];
+    const auto size_of_component =
+        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
+    const auto components =
+        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+    glint_array array = {};
+    array.type = static_cast<glint_component>(accessor.componentType);
+    array.normalized = accessor.normalized;
+    array.count = accessor.count;
+    array.element_size = static_cast<std::size_t>(size_of_component * components);
     if (accessor.bufferView >= 0) {
-        auto view = static_cast<std::size_t>(accessor.bufferView);
-        std::size_t stride = model.bufferViews[view].byteStride;
-        stride_ = stride == 0 ? element_size_ : stride;
-        base_ = view_data(model, view) + accessor.byteOffset;
+        const auto view = static_cast<std::size_t>(accessor.bufferView);
+        const std::size_t stride = model.bufferViews[view].byteStride;
+        array.stride = stride == 0 ? array.element_size : stride;
+        array.bytes = view_data(model, view) + accessor.byteOffset;
     }
-    if (!accessor.sparse.isSparse) {
-        return;
-    }
-    // Open the sparse part, and check its indices.
-    const auto &sparse = accessor.sparse;
-    sparse_component_ = sparse.indices.componentType;
-    sparse_indices_ = view_data(model, static_cast<std::size_t>(sparse.indices.bufferView)) +
-                      sparse.indices.byteOffset;
-    sparse_values_ = view_data(model, static_cast<std::size_t>(sparse.values.bufferView)) +
-                     sparse.values.byteOffset;
-    sparse_count_ = static_cast<std::size_t>(sparse.count);
-    Place place = (Place() / "accessors")[accessor_index] / "sparse" / "indices";
-    for (std::size_t k = 0; k < sparse_count_; k++) {
-        std::size_t value = sparse_index(k);
-        if (value >= count_) {
-            refuse(place[k], std::to_string(value) + " is out of range (the accessor has " +
-                                 counted(count_, "element") + ")");
-        }
-        if (k > 0 && value <= sparse_index(k - 1)) {
-            refuse(place[k], std::to_string(value) + " follows " +
-                                 std::to_string(sparse_index(k - 1)) +
-                                 " (sparse indices must ascend)");
-        }
-    }
-}
-
-std::size_t Reader::sparse_index(std::size_t k) const
-{
-    switch (sparse_component_) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return sparse_indices_[k];
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return load<std::uint16_t>(sparse_indices_, k);
-    default:
-        return load<std::uint32_t>(sparse_indices_, k);
-    }
-}
-
-const unsigned char *Reader::sparse_element(std::size_t i) const
-{
-    std::size_t low = 0;
-    std::size_t high = sparse_count_;
-    while (low < high) {
-        std::size_t middle = low + (high - low) / 2;
-        if (sparse_index(middle) < i) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    bool replaced = low < sparse_count_ && sparse_index(low) == i;
-    return replaced ? sparse_values_ + low * element_size_ : base_ + i * stride_;
-}
-
-double Reader::integer(const unsigned char *bytes, std::size_t i) const
-{
-    switch (component_) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: {
-        double value = load<std::int8_t>(bytes, i);
-        return normalized_ ? std::max(value / 127, -1.0) : value;
-    }
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return normalized_ ? bytes[i] / 255.0 : bytes[i];
-    case TINYGLTF_COMPONENT_TYPE_SHORT: {
-        double value = load<std::int16_t>(bytes, i);
-        return normalized_ ? std::max(value / 32767, -1.0) : value;
-    }
-    default: {
-        double value = load<std::uint16_t>(bytes, i);
-        return normalized_ ? value / 65535 : value;
-    }
-    }
+    array.sparse = open_sparse(model, index);
+    return array;
 }
 
 } // namespace glint

@@ -11,18 +11,18 @@ namespace
 {
 
 // Each function returns the place of the next attribute.
-float *store_texcoords(const Primitive &primitive, std::size_t set, std::size_t vertex,
+float *store_texcoords(const glint_primitive &primitive, std::size_t set, std::size_t vertex,
                        Tally &tally, float *stored)
 {
     std::array<double, 2> uv{};
-    if (primitive.has_texcoords[set]) {
-        primitive.texcoords[set].numbers(vertex, 2, uv.data());
+    if (primitive.texcoords[set].count > 0) {
+        glint_array_numbers(&primitive.texcoords[set], vertex, 2, uv.data());
     }
     for (std::size_t i = 0; i < 2; i++) {
         stored[i] = static_cast<float>(uv[i]);
         if (!std::isfinite(uv[i])) {
             tally.add("texture coordinates that are not finite count as 0",
-                      primitive.place().text());
+                      place_of(primitive).text());
             stored[i] = 0;
         }
     }
@@ -30,15 +30,15 @@ float *store_texcoords(const Primitive &primitive, std::size_t set, std::size_t 
 }
 
 // Stores 1 if the material uses no colours: an override may have removed them.
-float *store_color(Load &load, const Primitive &primitive, std::size_t vertex, float *stored)
+float *store_color(Load &load, const glint_primitive &primitive, std::size_t vertex, float *stored)
 {
     std::array<double, 4> rgba = {1, 1, 1, 1};
     if (load.materials.at(primitive.material).material.has_vertex_colors) {
-        primitive.colors.numbers(vertex, primitive.color_components, rgba.data());
+        glint_array_numbers(&primitive.colors, vertex, primitive.color_components, rgba.data());
     }
     for (std::size_t i = 0; i < 4; i++) {
         if (std::isnan(rgba[i])) {
-            load.tally.add("colours that are no numbers count as 1", primitive.place().text());
+            load.tally.add("colours that are no numbers count as 1", place_of(primitive).text());
             rgba[i] = 1;
         }
         stored[i] = static_cast<float>(std::clamp(rgba[i], 0.0, 1.0));
@@ -51,8 +51,8 @@ float *store_color(Load &load, const Primitive &primitive, std::size_t vertex, f
 float *store_tangent(const Draw &draw, std::size_t vertex, float *stored)
 {
     std::array<double, 4> t{};
-    if (draw.primitive->has_tangents && draw.shape == nullptr) {
-        draw.primitive->tangents.numbers(vertex, 4, t.data());
+    if (draw.primitive->tangents.count > 0 && draw.shape == nullptr) {
+        glint_array_numbers(&draw.primitive->tangents, vertex, 4, t.data());
     }
     const glint_vec3 world =
         glint_vec3_normalize(glint_mat4_direction(&draw.to_world, {t[0], t[1], t[2]}));
@@ -88,7 +88,7 @@ glint_attributes attributes_of(const Load &load)
 void store_attributes(Load &load, const Draw &draw, const std::array<std::size_t, 3> &corners,
                       const glint_attributes &set, float *stored)
 {
-    const Primitive &primitive = *draw.primitive;
+    const glint_primitive &primitive = *draw.primitive;
     for (const std::size_t vertex : corners) {
         if (set.texcoords) {
             stored = store_texcoords(primitive, 0, vertex, load.tally, stored);

@@ -1,9 +1,9 @@
 // Validates nodes, scenes and cameras in the raw JSON. All checks take linear time: a graph of 40
 // nodes can have 2^40 paths, and a chain can be 50,000 deep. See check.hpp.
 #include "scene/gltf/check.hpp"
+#include "scene/gltf/check_morph.hpp"
 #include "scene/gltf/check_storage.hpp"
 #include "scene/gltf/lights.hpp"
-#include "scene/gltf/morph.hpp"
 #include "scene/gltf/skin.hpp"
 
 #include <array>

@@ -1,9 +1,9 @@
 // Validates meshes, primitives, their attributes and indices in the raw JSON. The accessors'
 // contents are checked when they are read (primitive.cpp). See check.hpp.
 #include "scene/gltf/check.hpp"
+#include "scene/gltf/check_morph.hpp"
 #include "scene/gltf/check_storage.hpp"
 #include "scene/gltf/draco.hpp"
-#include "scene/gltf/morph.hpp"
 #include "scene/gltf/skin.hpp"
 #include "scene/gltf/variants.hpp"
 

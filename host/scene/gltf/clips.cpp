@@ -124,12 +124,12 @@ void check_accessors(const Sampler &sampler, const Target &target, const Model &
     }
 }
 
-std::vector<double> read_times(const Reader &reader, const Place &place, Tally &tally)
+std::vector<double> read_times(const glint_array &array, const Place &place, Tally &tally)
 {
-    std::vector<double> times(reader.count());
+    std::vector<double> times(array.count);
     bool repeats = false;
     for (std::size_t i = 0; i < times.size(); i++) {
-        reader.numbers(i, 1, &times[i]);
+        glint_array_numbers(&array, i, 1, &times[i]);
         if (!std::isfinite(times[i]) || (i > 0 && times[i] < times[i - 1])) {
             refuse(place, "the times of its keys must be finite and ascend");
         }
@@ -141,13 +141,13 @@ std::vector<double> read_times(const Reader &reader, const Place &place, Tally &
     return times;
 }
 
-std::vector<double> read_values(const Reader &reader, std::size_t components, std::size_t each,
+std::vector<double> read_values(const glint_array &array, std::size_t components, std::size_t each,
                                 const Place &place)
 {
-    std::vector<double> values(reader.count() * components);
-    for (std::size_t i = 0; i < reader.count(); i++) {
+    std::vector<double> values(array.count * components);
+    for (std::size_t i = 0; i < array.count; i++) {
         double *value = values.data() + i * components;
-        reader.numbers(i, components, value);
+        glint_array_numbers(&array, i, components, value);
         double squares = 0;
         for (std::size_t k = 0; k < components; k++) {
             squares += value[k] * value[k];
@@ -224,8 +224,9 @@ void read_channel(Reading &reading, const json &animation, const Place &place, s
     curve.is_rotation = target.property == rotation;
     curve.components = target.components;
     curve.interpolation = sampler.interpolation;
-    curve.times = read_times(Reader(model, sampler.input), sampler.place / "input", reading.tally);
-    curve.values = read_values(Reader(model, sampler.output), of_output, sampler.values_a_key(),
+    curve.times =
+        read_times(open_array(model, sampler.input), sampler.place / "input", reading.tally);
+    curve.values = read_values(open_array(model, sampler.output), of_output, sampler.values_a_key(),
                                sampler.place / "output");
     reading.clips.duration = std::max(reading.clips.duration, curve.times.back());
     reading.clips.nodes[target.node].of[target.property] = std::move(curve);

@@ -194,14 +194,6 @@ class MemoryFile
     int file_;
 };
 
-[[noreturn]] void pass_on(const glint_error &error)
-{
-    if (error.code == GLINT_OUT_OF_MEMORY) {
-        throw shortage(error.message);
-    }
-    throw refusal(error.message);
-}
-
 // Writes the job and the packed bytes, and gives the results their room.
 void lay_out(const Model &model, Packed &packed, std::uint64_t room, const MemoryFile &file)
 {

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "scene/gltf/attributes.hpp"
 #include "scene/gltf/bounds.hpp"
-#include "scene/gltf/coverage.hpp"
+#include "scene/gltf/coverage.h"
 #include "scene/shape/tangents.h"
 
 #include <algorithm>
@@ -55,14 +55,14 @@ Triangle corners_of(const Draw &draw, std::size_t t, bool mirrored)
     for (std::size_t c = 0; c < 3; c++) {
         // A mirroring node reverses the winding. Swapping two corners restores the outside.
         std::size_t from = mirrored && c > 0 ? 3 - c : c;
-        std::size_t vertex = draw.primitive->vertex(t, from);
+        std::size_t vertex = glint_primitive_vertex(draw.primitive, t, from);
         if (draw.shape != nullptr) {
-            const std::size_t element = draw.shape->element(t, from);
-            result[c] = {vertex, element, draw.shape->position(element)};
+            const std::size_t element = glint_shape_element(draw.shape, t, from);
+            result[c] = {vertex, element, draw.shape->positions[element]};
             continue;
         }
         std::array<double, 3> p{};
-        draw.primitive->positions.numbers(vertex, 3, p.data());
+        glint_array_numbers(&draw.primitive->positions, vertex, 3, p.data());
         result[c] = {vertex, 0, {p[0], p[1], p[2]}};
     }
     return result;
@@ -70,7 +70,7 @@ Triangle corners_of(const Draw &draw, std::size_t t, bool mirrored)
 
 [[noreturn]] void refuse_position(const Draw &draw, const Corner &corner)
 {
-    refuse(draw.primitive->place() / "attributes" / "POSITION",
+    refuse(place_of(*draw.primitive) / "attributes" / "POSITION",
            "vertex " + std::to_string(corner.vertex) + " is (" + shown(corner.local.x) + ", " +
                shown(corner.local.y) + ", " + shown(corner.local.z) + ")" +
                (draw.shape != nullptr ? " once its targets and joints have moved it" : "") +
@@ -263,7 +263,7 @@ class Writer
 
     static bool winds_back(const Draw &draw, std::size_t t)
     {
-        const bool inside_out = draw.shape != nullptr && draw.shape->is_mirrored(t);
+        const bool inside_out = draw.shape != nullptr && glint_shape_is_mirrored(draw.shape, t);
         return (glint_mat4_determinant3(&draw.to_world) < 0) != inside_out;
     }
 
@@ -291,7 +291,7 @@ class Writer
                 low_[k % 3] = std::min(low_[k % 3], p[k]);
                 high_[k % 3] = std::max(high_[k % 3], p[k]);
             }
-            if (draw.primitive->has_normals) {
+            if (draw.primitive->normals.count > 0) {
                 store_normals(draw, triangle, turned);
             }
             if (scene_.attributes != nullptr) {
@@ -342,10 +342,10 @@ class Writer
         for (std::size_t c = 0; c < 3; c++) {
             std::array<double, 3> n{};
             if (draw.shape != nullptr) {
-                const glint_vec3 moved = draw.shape->normal(triangle[c].element);
+                const glint_vec3 moved = draw.shape->normals[triangle[c].element];
                 n = {moved.x, moved.y, moved.z};
             } else {
-                draw.primitive->normals.numbers(triangle[c].vertex, 3, n.data());
+                glint_array_numbers(&draw.primitive->normals, triangle[c].vertex, 3, n.data());
             }
             glint_vec3 sum = glint_vec3_scale(turned[0], n[0]);
             sum = glint_vec3_add(sum, glint_vec3_scale(turned[1], n[1]));
@@ -423,8 +423,8 @@ void keep_used_materials(Load &load, std::size_t default_material, glint_scene &
         material = used_material.material;
         material.name = copy_text(material_name(root, source));
         scene.material_count++;
-        const bool loses =
-            loses_alpha(scene, load.images.textures(), material, static_cast<std::uint32_t>(i));
+        const bool loses = glint_coverage_is_lost(&scene, load.images.textures(), &material,
+                                                  static_cast<std::uint32_t>(i));
         survey_material(root, source, used_material, loses, load.tally);
     }
     // Renumber the materials of instances and triangles.
@@ -450,16 +450,16 @@ void flatten(Load &load, glint_scene &scene)
 {
     std::size_t triangles = 0;
     bool with_normals = false;
-    std::set<const Shape *> drawn; // hidden shapes cost nothing
+    std::set<const glint_shape *> drawn; // hidden shapes cost nothing
     for (const Draw &draw : load.draws) {
         triangles += draw.primitive->triangles; // at most 2^22 draws of 2^33
         drawn.insert(draw.shape);
-        with_normals = with_normals || draw.primitive->has_normals;
+        with_normals = with_normals || draw.primitive->normals.count > 0;
     }
     check_triangle_count(triangles);
-    std::vector<Shape *> shapes = load.poses.deforming();
+    std::vector<glint_shape *> shapes = load.poses.deforming();
     shapes.erase(std::remove_if(shapes.begin(), shapes.end(),
-                                [&](const Shape *shape) { return drawn.count(shape) == 0; }),
+                                [&](const glint_shape *shape) { return drawn.count(shape) == 0; }),
                  shapes.end());
     deform(shapes, with_normals, load.tally);
     const Measures measures = measure(load.draws);

@@ -8,6 +8,8 @@
 #ifndef GLINT_SCENE_GLTF_JSON_HPP
 #define GLINT_SCENE_GLTF_JSON_HPP
 
+#include "base/status.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -71,6 +73,9 @@ class Place
 };
 
 [[noreturn]] void refuse(const Place &place, const std::string &cause);
+
+// Throws the failure of a function of C.
+[[noreturn]] void pass_on(const glint_error &error);
 
 // Returns the text in quotes, cut after a few dozen characters.
 std::string in_quotes(const std::string &text);

@@ -26,13 +26,14 @@ namespace glint
 namespace
 {
 
-void report(const Load &load, glint_scene &scene, glint_warnings *warnings)
+void report(Load &load, glint_scene &scene, glint_warnings *warnings)
 {
     const char *path = load.document.path.c_str();
     for (std::size_t i = 0; i < scene.material_count; i++) {
-        scene.materials[i].warnings = load.tally.lines_about(scene.materials[i].index);
+        scene.materials[i].warnings =
+            glint_tally_lines_about(load.tally.get(), scene.materials[i].index);
     }
-    load.tally.report(path, warnings);
+    glint_tally_report(load.tally.get(), path, warnings);
     if (scene.skipped_points + scene.skipped_lines > 0) {
         glint_warn(warnings,
                    "%s: %zu point and %zu line primitives are skipped (only triangles are "
@@ -61,21 +62,20 @@ struct CameraScene {
     }
 };
 
-// Restores a tally after a walk: the next walk adds the same warnings again.
+// Takes back the warnings of a walk: the next walk adds the same ones again.
 class TallyRestorer
 {
   public:
-    explicit TallyRestorer(Tally &tally) : tally_(tally), before_(tally) {}
+    explicit TallyRestorer(Tally &tally) : tally_(tally) {}
     TallyRestorer(const TallyRestorer &) = delete;
     TallyRestorer &operator=(const TallyRestorer &) = delete;
     ~TallyRestorer()
     {
-        std::swap(tally_, before_);
+        glint_tally_rewind(tally_.get());
     }
 
   private:
     Tally &tally_;
-    Tally before_;
 };
 
 } // namespace
@@ -129,6 +129,7 @@ void open(const char *path, const glint_scene_options &options, glint_scene_sour
     source.motion = {load.moves_triangles, load.moves_cameras, load.moves_lights,
                      load.clips.duration,
                      load.clips.name.empty() ? nullptr : load.clips.name.c_str()};
+    glint_tally_mark(load.tally.get());
 }
 
 // Calls `work` and turns its exceptions into a status.

@@ -45,7 +45,7 @@ void settle_material(const Images &images, UsedMaterial &used, Tally &tally);
 std::string material_name(const json &root, std::ptrdiff_t index);
 
 // Tallies features of a used material that glint does not model. `loses_alpha`: see
-// coverage.hpp.
+// coverage.h.
 void survey_material(const json &root, std::ptrdiff_t index, const UsedMaterial &used,
                      bool loses_alpha, Tally &tally);
 

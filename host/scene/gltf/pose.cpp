@@ -1,6 +1,8 @@
 // Computes poses. See pose.hpp.
 #include "scene/gltf/pose.hpp"
 
+#include <new>
+
 namespace glint
 {
 
@@ -28,10 +30,18 @@ Bones place_bones(const PoseSource &source, const Skin &skin, const std::vector<
         bones.matrices.push_back(glint_mat4_multiply(&joint, &skin.inverse_bind[j]));
         bones.are_hidden = bones.are_hidden && is_hidden(joint);
     }
+    bones.view = {bones.matrices.data(), bones.matrices.size()};
     return bones;
 }
 
 } // namespace
+
+Shapes::~Shapes()
+{
+    for (glint_shape &shape : all) {
+        glint_shape_free(&shape);
+    }
+}
 
 bool is_hidden(const glint_mat4 &matrix)
 {
@@ -41,6 +51,15 @@ bool is_hidden(const glint_mat4 &matrix)
         }
     }
     return true;
+}
+
+void deform(const std::vector<glint_shape *> &shapes, bool with_normals, Tally &tally)
+{
+    glint_error error = {};
+    if (glint_shapes_deform(shapes.data(), shapes.size(), with_normals, tally.get(), &error) !=
+        GLINT_OK) {
+        pass_on(error);
+    }
 }
 
 std::vector<double> weights_at(const PoseSource &source, std::size_t node, double time)
@@ -76,40 +95,43 @@ void Poses::begin(const PoseSource &source, double time, const std::vector<glint
     }
 }
 
-Stand Poses::stand_of(const Shape *shape, int skin, const glint_mat4 &node_to_world) const
+Stand Poses::stand_of(const glint_shape *shape, int skin, const glint_mat4 &node_to_world) const
 {
-    if (shape != nullptr && shape->is_skinned()) {
+    if (shape != nullptr && shape->bones != nullptr) {
         return {glint_mat4_identity, bones_[static_cast<std::size_t>(skin)].are_hidden};
     }
     return {node_to_world, is_hidden(node_to_world)};
 }
 
-const std::vector<Shape> &Poses::shapes_of(const PoseSource &source, std::size_t node)
+const std::vector<glint_shape> &Poses::shapes_of(const PoseSource &source, std::size_t node)
 {
     const tinygltf::Node &own = source.model.nodes[node];
     const auto mesh = static_cast<std::size_t>(own.mesh);
     const bool has_weights = !own.weights.empty() || weight_curve(source.clips, node) != nullptr;
     const Key key = {own.mesh, has_weights ? static_cast<std::ptrdiff_t>(node) : -1, own.skin};
     const auto added = shapes_.try_emplace(key);
-    std::vector<Shape> &shapes = added.first->second;
+    std::vector<glint_shape> &shapes = added.first->second.all;
     if (added.second && (own.skin >= 0 || source.model.target_counts[mesh] > 0)) {
         const std::vector<double> now = weights_at(source, node, time_);
-        const auto *joints =
-            own.skin < 0 ? nullptr : &bones_[static_cast<std::size_t>(own.skin)].matrices;
+        const glint_bones *bones =
+            own.skin < 0 ? nullptr : &bones_[static_cast<std::size_t>(own.skin)].view;
         const std::size_t end = source.primitives.first[mesh + 1];
         for (std::size_t i = source.primitives.first[mesh]; i < end; i++) {
-            shapes.emplace_back(source.primitives.all[i], now, joints);
+            if (!glint_shape_init(&shapes.emplace_back(), &source.primitives.all[i], now.data(),
+                                  now.size(), bones)) {
+                throw std::bad_alloc();
+            }
         }
     }
     return shapes;
 }
 
-std::vector<Shape *> Poses::deforming()
+std::vector<glint_shape *> Poses::deforming()
 {
-    std::vector<Shape *> found;
+    std::vector<glint_shape *> found;
     for (auto &entry : shapes_) {
-        for (Shape &shape : entry.second) {
-            if (shape.deforms() && shape.primitive().triangles > 0) {
+        for (glint_shape &shape : entry.second.all) {
+            if (glint_shape_deforms(&shape) && shape.primitive->triangles > 0) {
                 found.push_back(&shape);
             }
         }

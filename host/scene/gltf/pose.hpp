@@ -4,7 +4,9 @@
 
 #include "scene/gltf/clips.hpp"
 #include "scene/gltf/primitive.hpp"
-#include "scene/gltf/shape.hpp"
+#include "scene/gltf/shape.h"
+#include "scene/gltf/skin.hpp"
+#include "scene/gltf/tally.hpp"
 
 #include <map>
 #include <tuple>
@@ -17,6 +19,19 @@ namespace glint
 struct Bones {
     std::vector<glint_mat4> matrices; // from the bound mesh to the world
     bool are_hidden = false;          // all joints have a scale of 0
+    glint_bones view = {};            // of `matrices`
+};
+
+// The shapes of a mesh's primitives; owns what they own.
+class Shapes
+{
+  public:
+    Shapes() = default;
+    Shapes(const Shapes &) = delete;
+    Shapes &operator=(const Shapes &) = delete;
+    ~Shapes();
+
+    std::vector<glint_shape> all;
 };
 
 // The loader's data from which poses are made.
@@ -44,6 +59,9 @@ std::vector<double> weights_at(const PoseSource &source, std::size_t node, doubl
 // True if the weights ever change.
 bool weights_move(const Clips &clips, std::size_t node);
 
+// Computes the shapes. Throws what glint_shapes_deform refuses.
+void deform(const std::vector<glint_shape *> &shapes, bool with_normals, Tally &tally);
+
 // The shapes of all nodes. Nodes that deform a mesh alike share its shapes.
 class Poses
 {
@@ -59,20 +77,20 @@ class Poses
 
     // Returns the shapes of the primitives of a node's mesh; empty without targets and skin. They
     // last until begin() or clear().
-    const std::vector<Shape> &shapes_of(const PoseSource &source, std::size_t node);
+    const std::vector<glint_shape> &shapes_of(const PoseSource &source, std::size_t node);
 
     // Returns all shapes that deform, in an order that depends on the file alone.
-    std::vector<Shape *> deforming();
+    std::vector<glint_shape *> deforming();
 
     // Returns the place of a primitive with this shape (NULL: the file's own) at a node with this
     // skin. Only joints place a skinned primitive, and only all of them together can hide it.
-    Stand stand_of(const Shape *shape, int skin, const glint_mat4 &node_to_world) const;
+    Stand stand_of(const glint_shape *shape, int skin, const glint_mat4 &node_to_world) const;
 
   private:
     using Key = std::tuple<int, std::ptrdiff_t, int>; // mesh; node of the weights, or −1; skin
     double time_ = 0;
     std::vector<Bones> bones_; // [skin]; empty if no visited node uses it
-    std::map<Key, std::vector<Shape>> shapes_;
+    std::map<Key, Shapes> shapes_;
 };
 
 } // namespace glint

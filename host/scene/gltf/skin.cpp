@@ -1,6 +1,7 @@
 // Checks and reads skins. See skin.hpp.
 #include "scene/gltf/skin.hpp"
 
+#include "scene/gltf/accessor.hpp"
 #include "scene/gltf/check_storage.hpp"
 
 #include <array>
@@ -11,9 +12,6 @@ namespace glint
 
 namespace
 {
-
-// Sums differ from 1 at most so much by rounding: eight weights in bytes err by 1/510 each.
-constexpr double sum_tolerance = 8.0 / 510;
 
 // Tolerance of the last row, as for a node's matrix.
 constexpr double row_tolerance = 1e-5;
@@ -37,10 +35,10 @@ void check_matrices(const json &skin, const Place &skin_place, const Model &mode
     }
 }
 
-glint_mat4 read_matrix(const Reader &matrices, std::size_t i, const Place &place)
+glint_mat4 read_matrix(const glint_array &matrices, std::size_t i, const Place &place)
 {
     std::array<double, 16> m{};
-    matrices.numbers(i, 16, m.data());
+    glint_array_numbers(&matrices, i, 16, m.data());
     for (double value : m) {
         if (!std::isfinite(value)) {
             refuse(place, "matrix " + std::to_string(i) + " is not finite (the file is damaged)");
@@ -58,45 +56,6 @@ glint_mat4 read_matrix(const Reader &matrices, std::size_t i, const Place &place
         }
     }
     return result;
-}
-
-// An influence of a vertex.
-struct Influence {
-    double weight, joint;
-};
-
-using Set = std::array<Influence, 4>;
-
-Set read_set(const Influences &source, std::size_t vertex)
-{
-    std::array<double, 4> joints{};
-    std::array<double, 4> weights{};
-    source.joints.numbers(vertex, 4, joints.data());
-    source.weights.numbers(vertex, 4, weights.data());
-    Set set{};
-    for (std::size_t k = 0; k < 4; k++) {
-        set[k] = {weights[k], joints[k]};
-    }
-    return set;
-}
-
-Weighting judge(const Influence &influence, std::size_t joint_count)
-{
-    if (!(influence.weight >= 0) || std::isinf(influence.weight)) {
-        return Weighting::no_weight;
-    }
-    const bool counts = influence.weight > 0;
-    return counts && !(influence.joint < static_cast<double>(joint_count)) ? Weighting::no_joint
-                                                                           : Weighting::good;
-}
-
-void add_scaled(const glint_mat4 &matrix, double weight, glint_mat4 &sum)
-{
-    for (std::size_t row = 0; row < 3; row++) {
-        for (std::size_t column = 0; column < 4; column++) {
-            sum.m[row][column] += weight * matrix.m[row][column];
-        }
-    }
 }
 
 } // namespace
@@ -160,73 +119,14 @@ std::vector<Skin> read_skins(const Model &model)
         if (source.inverseBindMatrices < 0) {
             continue;
         }
-        Reader matrices(model, static_cast<std::size_t>(source.inverseBindMatrices));
+        const glint_array matrices =
+            open_array(model, static_cast<std::size_t>(source.inverseBindMatrices));
         Place place = (Place() / "skins")[i] / "inverseBindMatrices";
         for (std::size_t j = 0; j < skin.joints.size(); j++) {
             skin.inverse_bind[j] = read_matrix(matrices, j, place);
         }
     }
     return skins;
-}
-
-Weighting blend_joints(const std::vector<Influences> &sets, std::size_t vertex,
-                       const std::vector<glint_mat4> &matrices, glint_mat4 &blend)
-{
-    double total = 0;
-    glint_mat4 sum = {};
-    for (const Influences &source : sets) {
-        for (const Influence &one : read_set(source, vertex)) {
-            const Weighting judged = judge(one, matrices.size());
-            if (is_fault(judged)) {
-                return judged;
-            }
-            if (one.weight > 0) {
-                total += one.weight;
-                add_scaled(matrices[static_cast<std::size_t>(one.joint)], one.weight, sum);
-            }
-        }
-    }
-    blend = glint_mat4_identity;
-    if (!(total > 0)) {
-        const Influence first = read_set(sets[0], vertex)[0];
-        if (is_fault(judge({1, first.joint}, matrices.size()))) {
-            return Weighting::no_joint;
-        }
-        blend = matrices[static_cast<std::size_t>(first.joint)];
-        return Weighting::none;
-    }
-    for (std::size_t row = 0; row < 3; row++) {
-        for (std::size_t column = 0; column < 4; column++) {
-            blend.m[row][column] = sum.m[row][column] / total;
-        }
-    }
-    return std::fabs(total - 1) > sum_tolerance ? Weighting::not_one : Weighting::good;
-}
-
-void refuse_influence(const std::vector<Influences> &sets, std::size_t vertex,
-                      std::size_t joint_count, const Place &primitive_place)
-{
-    const Place attributes = primitive_place / "attributes";
-    const std::string who = "vertex " + std::to_string(vertex);
-    std::size_t set = 0;
-    double joint = read_set(sets[0], vertex)[0].joint; // counts if all weights are 0
-    for (std::size_t s = 0; s < sets.size(); s++) {
-        for (const Influence &one : read_set(sets[s], vertex)) {
-            const Weighting judged = judge(one, joint_count);
-            if (judged == Weighting::no_weight) {
-                refuse(attributes / ("WEIGHTS_" + std::to_string(s)).c_str(),
-                       who + " has a weight of " + shown(one.weight) +
-                           " (weights must be finite and not negative)");
-            }
-            if (judged == Weighting::no_joint) {
-                set = s;
-                joint = one.joint;
-            }
-        }
-    }
-    refuse(attributes / ("JOINTS_" + std::to_string(set)).c_str(),
-           who + " follows joint " + shown(joint) + " (the skin has " +
-               counted(joint_count, "joint") + ")");
 }
 
 } // namespace glint

@@ -50,17 +50,18 @@ std::vector<double> sweep_times(const Clips &clips)
 }
 
 // The bounds of the triangles' corners, deformed by the shape; NULL: as in the file.
-Bounds box_of(const Primitive &primitive, const Shape *shape)
+Bounds box_of(const glint_primitive &primitive, const glint_shape *shape)
 {
     Bounds box;
     for (std::size_t t = 0; t < primitive.triangles; t++) {
         for (std::size_t c = 0; c < 3; c++) {
             if (shape != nullptr) {
-                box.grow(shape->position(shape->element(t, c)));
+                box.grow(shape->positions[glint_shape_element(shape, t, c)]);
                 continue;
             }
             std::array<double, 3> p{};
-            primitive.positions.numbers(primitive.vertex(t, c), 3, p.data());
+            glint_array_numbers(&primitive.positions, glint_primitive_vertex(&primitive, t, c), 3,
+                                p.data());
             box.grow({p[0], p[1], p[2]});
         }
     }
@@ -141,12 +142,12 @@ class Sweeper
         for (const Drawing *drawing : drawings) {
             poses_.shapes_of(source_, load_.visits[drawing->visit].node);
         }
-        const std::vector<Shape *> shapes = poses_.deforming();
+        const std::vector<glint_shape *> shapes = poses_.deforming();
         deform(shapes, false, said_elsewhere_);
         double cost = 0;
-        for (const Shape *shape : shapes) {
-            shape_boxes_[shape] = box_of(shape->primitive(), shape);
-            cost += shape->cost();
+        for (const glint_shape *shape : shapes) {
+            shape_boxes_[shape] = box_of(*shape->primitive, shape);
+            cost += glint_shape_cost(shape);
         }
         return cost;
     }
@@ -181,9 +182,9 @@ class Sweeper
         const std::size_t first = load_.primitives.first[mesh];
         const auto &shapes = poses_.shapes_of(source_, load_.visits[drawing.visit].node);
         for (std::size_t i = first; i < load_.primitives.first[mesh + 1]; i++) {
-            const Shape *shape = shapes.empty() ? nullptr : &shapes[i - first];
+            const glint_shape *shape = shapes.empty() ? nullptr : &shapes[i - first];
             const Stand stand = poses_.stand_of(shape, node.skin, placed_[drawing.visit]);
-            const bool deforms = shape != nullptr && shape->deforms();
+            const bool deforms = shape != nullptr && glint_shape_deforms(shape);
             if (stand.is_hidden || load_.primitives.all[i].triangles == 0) {
                 continue;
             }
@@ -201,7 +202,7 @@ class Sweeper
     const PoseSource source_;
     std::vector<glint_mat4> placed_; // [visit]
     std::vector<Bounds> boxes_;      // [primitive], as in the file
-    std::map<const Shape *, Bounds> shape_boxes_;
+    std::map<const glint_shape *, Bounds> shape_boxes_;
     Poses poses_;
     Tally said_elsewhere_; // dropped: loading a frame gives the same warnings
     Bounds all_;

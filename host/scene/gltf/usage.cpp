@@ -87,11 +87,11 @@ void add_meshes(const Load &load, Usages &usages)
         }
         const auto m = static_cast<std::size_t>(node.mesh);
         for (std::size_t p = load.primitives.first[m]; p < load.primitives.first[m + 1]; p++) {
-            const Primitive &primitive = load.primitives.all[p];
-            if (!primitive.targets.empty()) {
+            const glint_primitive &primitive = load.primitives.all[p];
+            if (primitive.target_count > 0) {
                 usages.add("morph targets", GLINT_RENDERED);
             }
-            if (node.skin >= 0 && !primitive.influences.empty()) {
+            if (node.skin >= 0 && primitive.influences.count > 0) {
                 usages.add("skins", GLINT_RENDERED);
             }
         }

@@ -56,7 +56,7 @@ void read_materials(Load &load)
         }
         const auto m = static_cast<std::size_t>(mesh);
         for (std::size_t p = load.primitives.first[m]; p < load.primitives.first[m + 1]; p++) {
-            const Primitive &primitive = load.primitives.all[p];
+            const glint_primitive &primitive = load.primitives.all[p];
             if (primitive.triangles == 0) {
                 continue;
             }

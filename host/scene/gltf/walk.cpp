@@ -3,6 +3,7 @@
 #include "scene/gltf/walk.hpp"
 
 #include "base/memory.h"
+#include "scene/gltf/accessor.hpp"
 #include "scene/gltf/extensions.hpp"
 #include "scene/gltf/lights.hpp"
 #include "scene/gltf/roots.hpp"
@@ -118,11 +119,11 @@ const json *instancing_of(const json &node)
 
 // Returns a property of instance i, or `value` if the attribute is missing.
 template <std::size_t N>
-std::array<double, N> instance_part(const Reader &attribute, std::size_t i,
+std::array<double, N> instance_part(const glint_array &attribute, std::size_t i,
                                     std::array<double, N> value)
 {
-    if (attribute.count() > 0) {
-        attribute.numbers(i, N, value.data());
+    if (attribute.count > 0) {
+        glint_array_numbers(&attribute, i, N, value.data());
     }
     return value;
 }
@@ -161,11 +162,11 @@ void survey_node(Load &load, std::size_t index)
     add_notes(load.model.node_notes, index, where, load.tally);
 }
 
-void survey_primitive(Load &load, const Primitive &primitive)
+void survey_primitive(Load &load, const glint_primitive &primitive)
 {
     const json &source =
         objects_of(load.document.root, "meshes")[primitive.mesh]["primitives"][primitive.number];
-    std::string where = primitive.place().text();
+    std::string where = place_of(primitive).text();
     survey_extensions(source, Holder::primitive, where, load.tally);
     add_notes(load.model.notes, {primitive.mesh, primitive.number}, where, load.tally);
 }
@@ -174,29 +175,30 @@ void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_s
 {
     const std::vector<glint_mat4> instances = instances_of(load, node, load.draws.size());
     const std::size_t copies = std::max<std::size_t>(instances.size(), 1);
-    const std::vector<Shape> &shapes = load.poses.shapes_of(pose_source(load), node);
+    const std::vector<glint_shape> &shapes = load.poses.shapes_of(pose_source(load), node);
     const int skin = load.model.nodes[node].skin;
     auto mesh = static_cast<std::size_t>(load.model.nodes[node].mesh);
     const std::size_t first = load.primitives.first[mesh];
     for (std::size_t i = first; i < load.primitives.first[mesh + 1]; i++) {
-        const Primitive &primitive = load.primitives.all[i];
-        const Shape *shape = shapes.empty() ? nullptr : &shapes[i - first];
+        const glint_primitive &primitive = load.primitives.all[i];
+        const glint_shape *shape = shapes.empty() ? nullptr : &shapes[i - first];
         const Stand stand = load.poses.stand_of(shape, skin, to_world);
         if (stand.is_hidden) {
             load.hides_any = true;
             continue;
         }
-        if (primitive.mode < 4) {
-            (primitive.mode == 0 ? scene.skipped_points : scene.skipped_lines) += copies;
+        if (primitive.mode < GLINT_MODE_TRIANGLES) {
+            (primitive.mode == GLINT_MODE_POINTS ? scene.skipped_points : scene.skipped_lines) +=
+                copies;
             continue;
         }
         survey_primitive(load, primitive);
-        if (skin >= 0 && !shape->is_skinned()) {
+        if (skin >= 0 && shape->bones == nullptr) {
             load.tally.add("a skin does not move it, as it has no JOINTS_0; its node places it",
-                           primitive.place().text());
+                           place_of(primitive).text());
         }
         // Draw the primitive at each instance. A shape that does not deform is the file's own.
-        shape = shape != nullptr && shape->deforms() ? shape : nullptr;
+        shape = shape != nullptr && glint_shape_deforms(shape) ? shape : nullptr;
         for (const glint_mat4 &instance : instances) {
             load.draws.push_back({&primitive, static_cast<int>(node),
                                   glint_mat4_multiply(&stand.to_world, &instance), shape});
@@ -343,9 +345,10 @@ bool places_any(const Load &load, const tinygltf::Node &node)
 {
     const auto mesh = static_cast<std::size_t>(node.mesh);
     const auto begin = load.primitives.all.begin();
-    return node.skin < 0 || std::any_of(begin + std::ptrdiff_t(load.primitives.first[mesh]),
-                                        begin + std::ptrdiff_t(load.primitives.first[mesh + 1]),
-                                        [](const Primitive &p) { return p.influences.empty(); });
+    return node.skin < 0 ||
+           std::any_of(begin + std::ptrdiff_t(load.primitives.first[mesh]),
+                       begin + std::ptrdiff_t(load.primitives.first[mesh + 1]),
+                       [](const glint_primitive &p) { return p.influences.count == 0; });
 }
 
 // Finds which meshes, cameras and lights the clip moves. Call it after all visits are known.
@@ -396,13 +399,14 @@ std::vector<glint_mat4> instances_of(const Load &load, std::size_t node, std::si
     }
     auto open = [&](const char *key) {
         const json *accessor = member(*attributes, key);
-        return accessor == nullptr ? Reader() : Reader(load.model, accessor->get<std::size_t>());
+        return accessor == nullptr ? glint_array{}
+                                   : open_array(load.model, accessor->get<std::size_t>());
     };
-    Reader translations = open("TRANSLATION");
-    Reader rotations = open("ROTATION");
-    Reader scales = open("SCALE");
+    const glint_array translations = open("TRANSLATION");
+    const glint_array rotations = open("ROTATION");
+    const glint_array scales = open("SCALE");
     std::size_t count =
-        std::max({translations.count(), rotations.count(), scales.count(), std::size_t{1}});
+        std::max({translations.count, rotations.count, scales.count, std::size_t{1}});
     if (count > most) { // checked before making any: a small file can ask for many
         refuse_draws();
     }

@@ -27,10 +27,10 @@ struct Visit {
 
 // A primitive drawn at a node or at one of the node's instances.
 struct Draw {
-    const Primitive *primitive;
+    const glint_primitive *primitive;
     int node;
-    glint_mat4 to_world; // from the coordinates of `shape`, if there is one
-    const Shape *shape;  // NULL: the primitive as the file has it
+    glint_mat4 to_world;      // from the coordinates of `shape`, if there is one
+    const glint_shape *shape; // NULL: the primitive as the file has it
 };
 
 // The loader's data.

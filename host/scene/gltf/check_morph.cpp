@@ -1,5 +1,5 @@
-// Checks and applies morph targets. See morph.hpp.
-#include "scene/gltf/morph.hpp"
+// Checks morph targets. See check_morph.hpp.
+#include "scene/gltf/check_morph.hpp"
 
 #include "scene/gltf/check_storage.hpp"
 
@@ -42,29 +42,6 @@ std::vector<double> check_weights(const json &object, const Place &place)
         weights.push_back(number_of(numbers[i], (place / "weights")[i]));
     }
     return weights;
-}
-
-Morph::Morph(const std::vector<MorphTarget> &targets, const std::vector<double> &weights)
-{
-    for (std::size_t i = 0; i < std::min(targets.size(), weights.size()); i++) {
-        for (std::size_t row = 0; row < morph_rows.size() && weights[i] != 0; row++) {
-            if (targets[i].of[row].count() > 0) {
-                parts_[row].push_back({weights[i], &targets[i].of[row]});
-            }
-        }
-    }
-}
-
-void Morph::add(MorphAttribute attribute, std::size_t vertex, double *components) const
-{
-    std::array<double, 4> delta{};
-    const std::size_t count = morph_rows[attribute].components;
-    for (const Part &part : parts_[attribute]) {
-        part.deltas->numbers(vertex, count, delta.data());
-        for (std::size_t k = 0; k < count; k++) {
-            components[k] += part.weight * delta[k];
-        }
-    }
 }
 
 } // namespace glint

@@ -1,0 +1,108 @@
+// Arrays of numbers as glTF's accessors describe them. See array.h.
+#include "scene/gltf/array.h"
+
+#include <math.h>
+#include <string.h>
+
+// An element of any type, 4 × 4 floats at most.
+static const unsigned char zeros[64];
+
+// Files align elements, but not to the addresses at which they are loaded: copy.
+#define LOAD(type, bytes, i)                                                                       \
+    ({                                                                                             \
+        type loaded;                                                                               \
+        memcpy(&loaded, (bytes) + (i) * sizeof loaded, sizeof loaded);                             \
+        loaded;                                                                                    \
+    })
+
+static uint32_t load_index(glint_component type, const unsigned char *bytes, size_t i)
+{
+    switch (type) {
+    case GLINT_COMPONENT_UINT8:
+        return bytes[i];
+    case GLINT_COMPONENT_UINT16:
+        return LOAD(uint16_t, bytes, i);
+    default:
+        return LOAD(uint32_t, bytes, i);
+    }
+}
+
+uint32_t glint_sparse_index(const glint_sparse *sparse, size_t k)
+{
+    return load_index(sparse->index_type, sparse->indices, k);
+}
+
+// Returns the sparse element at index i; NULL: there is none.
+static const unsigned char *sparse_element(const glint_array *array, size_t i)
+{
+    size_t low = 0, high = array->sparse.count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (glint_sparse_index(&array->sparse, middle) < i) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    const bool is_there = low < array->sparse.count && glint_sparse_index(&array->sparse, low) == i;
+    return is_there ? array->sparse.elements + low * array->element_size : NULL;
+}
+
+static const unsigned char *element(const glint_array *array, size_t i)
+{
+    const unsigned char *replaced = array->sparse.count == 0 ? NULL : sparse_element(array, i);
+    return replaced != NULL       ? replaced
+           : array->bytes != NULL ? array->bytes + i * array->stride
+                                  : zeros;
+}
+
+uint32_t glint_array_index(const glint_array *array, size_t i)
+{
+    return load_index(array->type, element(array, i), 0);
+}
+
+uint32_t glint_component_largest(glint_component type)
+{
+    return type == GLINT_COMPONENT_UINT8    ? UINT8_MAX
+           : type == GLINT_COMPONENT_UINT16 ? UINT16_MAX
+                                            : UINT32_MAX;
+}
+
+static double number(const glint_array *array, const unsigned char *bytes, size_t i)
+{
+    const bool is_share = array->normalized;
+    switch (array->type) {
+    case GLINT_COMPONENT_FLOAT:
+        return (double)LOAD(float, bytes, i);
+    case GLINT_COMPONENT_INT8: {
+        const double value = LOAD(int8_t, bytes, i);
+        return is_share ? fmax(value / INT8_MAX, -1.0) : value;
+    }
+    case GLINT_COMPONENT_UINT8:
+        return is_share ? bytes[i] / (double)UINT8_MAX : bytes[i];
+    case GLINT_COMPONENT_INT16: {
+        const double value = LOAD(int16_t, bytes, i);
+        return is_share ? fmax(value / INT16_MAX, -1.0) : value;
+    }
+    case GLINT_COMPONENT_UINT16: {
+        const double value = LOAD(uint16_t, bytes, i);
+        return is_share ? value / UINT16_MAX : value;
+    }
+    default:
+        return LOAD(uint32_t, bytes, i);
+    }
+}
+
+void glint_array_numbers(const glint_array *array, size_t i, size_t n, double *numbers)
+{
+    const unsigned char *bytes = element(array, i);
+    if (array->type == GLINT_COMPONENT_FLOAT) { // nearly all arrays
+        for (size_t c = 0; c < n; c++) {
+            numbers[c] = (double)LOAD(float, bytes, c);
+        }
+        return;
+    }
+    for (size_t c = 0; c < n; c++) {
+        numbers[c] = number(array, bytes, c);
+    }
+}
