@@ -58,7 +58,8 @@ glint_array open_array(const Model &model, std::size_t index)
     array.type = static_cast<glint_component>(accessor.componentType);
     array.normalized = accessor.normalized;
     array.count = accessor.count;
-    array.element_size = static_cast<std::size_t>(size_of_component * components);
+    array.element_size =
+        static_cast<std::size_t>(size_of_component) * static_cast<std::size_t>(components);
     if (accessor.bufferView >= 0) {
         const auto view = static_cast<std::size_t>(accessor.bufferView);
         const std::size_t stride = model.bufferViews[view].byteStride;

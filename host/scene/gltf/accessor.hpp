@@ -11,9 +11,9 @@ namespace glint
 // Returns the bytes of a view whose buffer is loaded.
 const unsigned char *view_data(const Model &model, std::size_t index);
 
-// Returns an accessor's array, which reads the model's bytes. Refuses sparse indices that do not
-// ascend or are out of range.
-glint_array open_array(const Model &model, std::size_t accessor);
+// Returns the array of accessors[index], which reads the model's bytes. Refuses sparse indices that
+// do not ascend or are out of range.
+glint_array open_array(const Model &model, std::size_t index);
 
 } // namespace glint
 
