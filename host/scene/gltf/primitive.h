@@ -5,6 +5,8 @@
 #include "scene/gltf/joints.h"
 #include "scene/gltf/morph.h"
 
+#include <stdio.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -24,18 +26,23 @@ typedef struct glint_primitive {
     ptrdiff_t material;  // index in the file; −1: glTF's default material
     size_t triangles;    // 0 for points and lines
     glint_array positions, normals, indices, tangents, colors, texcoords[2];
-    size_t color_components; // 3 or 4; 0: no colours
-    glint_morph_target *targets;
+    size_t color_components;           // 3 or 4; 0: no colours
+    const glint_morph_target *targets; // borrowed
     size_t target_count;
-    glint_influence_sets influences;
+    glint_influence_sets influences; // borrowed; none: no skin moves the primitive
 } glint_primitive;
 
 // Large enough for a place such as meshes[3].primitives[0].
 #define GLINT_PRIMITIVE_PLACE 80
 
 // Writes the primitive's place in the file to `text` and returns it.
-const char *glint_primitive_place(const glint_primitive *primitive,
-                                  char text[GLINT_PRIMITIVE_PLACE]);
+static inline const char *glint_primitive_place(const glint_primitive *primitive,
+                                                char text[GLINT_PRIMITIVE_PLACE])
+{
+    (void)snprintf(text, GLINT_PRIMITIVE_PLACE, "meshes[%zu].primitives[%zu]", primitive->mesh,
+                   primitive->number);
+    return text;
+}
 
 // Returns the vertex at corner c of triangle t, in the mode's winding order.
 static inline size_t glint_primitive_vertex(const glint_primitive *primitive, size_t t, size_t c)

@@ -5,7 +5,6 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 static const size_t elements_per_task = 2048;
@@ -21,14 +20,6 @@ static size_t vertex_of(const glint_shape *shape, size_t element)
 {
     return shape->is_per_corner ? glint_primitive_vertex(shape->primitive, element / 3, element % 3)
                                 : element;
-}
-
-const char *glint_primitive_place(const glint_primitive *primitive,
-                                  char text[GLINT_PRIMITIVE_PLACE])
-{
-    (void)snprintf(text, GLINT_PRIMITIVE_PLACE, "meshes[%zu].primitives[%zu]", primitive->mesh,
-                   primitive->number);
-    return text;
 }
 
 bool glint_shape_init(glint_shape *shape, const glint_primitive *primitive, const double *weights,

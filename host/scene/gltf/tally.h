@@ -47,8 +47,7 @@ uint64_t glint_tally_lines_about(const glint_tally *tally, int material);
 // Reports one line per warning, in the order of their first addition.
 void glint_tally_report(const glint_tally *tally, const char *path, glint_warnings *warnings);
 
-// Marks the present state; goes back to it. Going back is always possible, at first to an empty
-// tally.
+// Marks the present state; goes back to the last mark, or to an empty tally if there is none.
 void glint_tally_mark(glint_tally *tally);
 void glint_tally_rewind(glint_tally *tally);
 
