@@ -1,6 +1,6 @@
 // Tests that files of other formats are recognised. The beginnings come from the formats'
 // specifications and from files of the programs that write them.
-#include "scene/gltf/foreign_format.h"
+#include "decoder/foreign_format.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

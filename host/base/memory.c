@@ -49,3 +49,19 @@ void *glint_allocate(size_t count, size_t size)
     }
     return memory;
 }
+
+bool glint_make_room(void **items, size_t count, size_t *capacity, size_t size)
+{
+    if (count < *capacity) {
+        return true;
+    }
+    const size_t more = *capacity == 0 ? 16 : 2 * *capacity;
+    size_t bytes;
+    void *grown = glint_multiply(more, size, &bytes) ? realloc(*items, bytes) : NULL;
+    if (grown == NULL) {
+        return false;
+    }
+    *items = grown;
+    *capacity = more;
+    return true;
+}

@@ -56,6 +56,25 @@ static const unsigned char *element(const glint_array *array, size_t i)
                                   : zeros;
 }
 
+glint_array glint_array_open(const glint_document *document, int32_t index)
+{
+    glint_array array = {0};
+    if (index < 0) {
+        return array;
+    }
+    const glint_document_array *row = &document->arrays[index];
+    array.type = (glint_component)row->type;
+    array.normalized = row->is_normalized != 0;
+    array.count = row->count;
+    array.element_size = glint_component_bytes(row->type) * (size_t)row->components;
+    array.bytes = row->offset == 0 ? NULL : document->block + row->offset;
+    array.stride = row->stride;
+    array.sparse = (glint_sparse){row->sparse_count, (glint_component)row->sparse_type,
+                                  document->block + row->sparse_indices,
+                                  document->block + row->sparse_elements};
+    return array;
+}
+
 uint32_t glint_array_index(const glint_array *array, size_t i)
 {
     return load_index(array->type, element(array, i), 0);

@@ -2,23 +2,13 @@
 #ifndef GLINT_SCENE_GLTF_ARRAY_H
 #define GLINT_SCENE_GLTF_ARRAY_H
 
+#include "scene/document.h"
+
 #include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-// glTF's codes of component types.
-typedef enum glint_component {
-    GLINT_COMPONENT_INT8 = 5120,
-    GLINT_COMPONENT_UINT8 = 5121,
-    GLINT_COMPONENT_INT16 = 5122,
-    GLINT_COMPONENT_UINT16 = 5123,
-    GLINT_COMPONENT_UINT32 = 5125,
-    GLINT_COMPONENT_FLOAT = 5126,
-} glint_component;
 
 // Elements that stand in for some of an array's own.
 typedef struct glint_sparse {
@@ -39,6 +29,9 @@ typedef struct glint_array {
     size_t stride;              // bytes from one element to the next
     glint_sparse sparse;
 } glint_array;
+
+// Returns arrays[index] of a document; −1: an array without elements.
+glint_array glint_array_open(const glint_document *document, int32_t index);
 
 // Returns an element of unsigned integers of one component.
 uint32_t glint_array_index(const glint_array *array, size_t i);

@@ -25,6 +25,7 @@ typedef struct glint_primitive {
     int mode;            // a glint_mode
     ptrdiff_t material;  // index in the file; −1: glTF's default material
     size_t triangles;    // 0 for points and lines
+    size_t left_over;    // last vertices that make no whole triangle
     glint_array positions, normals, indices, tangents, colors, texcoords[2];
     size_t color_components;           // 3 or 4; 0: no colours
     const glint_morph_target *targets; // borrowed

@@ -25,7 +25,7 @@ static size_t vertex_of(const glint_shape *shape, size_t element)
 bool glint_shape_init(glint_shape *shape, const glint_primitive *primitive, const double *weights,
                       size_t weight_count, const glint_bones *bones)
 {
-    *shape = (glint_shape){.primitive = primitive};
+    *shape = (glint_shape){.primitive = primitive, .box = GLINT_BOUNDS_EMPTY};
     shape->bones = primitive->influences.count > 0 ? bones : NULL;
     shape->is_per_corner = primitive->positions.count / 3 > primitive->triangles;
     return glint_morph_init(&shape->morph, primitive->targets, primitive->target_count, weights,

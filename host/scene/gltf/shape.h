@@ -3,6 +3,7 @@
 #ifndef GLINT_SCENE_GLTF_SHAPE_H
 #define GLINT_SCENE_GLTF_SHAPE_H
 
+#include "scene/gltf/bounds.h"
 #include "scene/gltf/primitive.h"
 #include "scene/gltf/tally.h"
 
@@ -22,6 +23,9 @@ typedef struct glint_shape {
     // [element], set by glint_shapes_deform; owned. Normals have any length. NULL: as in the file.
     glint_vec3 *positions, *normals;
     signed char *orientations; // −1: mirrored, 0: flattened, 1: neither; NULL: no joints
+    // For those who ask: whether it is drawn, and its box, empty until it is known.
+    bool is_drawn;
+    glint_bounds box;
 } glint_shape;
 
 // `weights` are those of the primitive's targets. `bones` may be NULL, and serve only a primitive

@@ -1,6 +1,8 @@
 // Collects warnings about a file. See tally.h.
 #include "scene/gltf/tally.h"
 
+#include "base/memory.h"
+
 #include <search.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,21 +45,6 @@ static glint_tally_entry *new_entry(const char *text, const char *where)
     return entry;
 }
 
-static bool make_room(glint_tally_list *list)
-{
-    if (list->count < list->capacity) {
-        return true;
-    }
-    const size_t capacity = list->capacity == 0 ? 16 : 2 * list->capacity;
-    glint_tally_entry **grown = realloc(list->entries, capacity * sizeof *grown);
-    if (grown == NULL) {
-        return false;
-    }
-    list->entries = grown;
-    list->capacity = capacity;
-    return true;
-}
-
 // Returns the entry, added if it is not there; NULL if memory is short.
 static glint_tally_entry *find_or_add(glint_tally_list *list, const char *text, const char *where,
                                       int (*compare)(const void *, const void *))
@@ -67,7 +54,9 @@ static glint_tally_entry *find_or_add(glint_tally_list *list, const char *text, 
     if (found != NULL) {
         return *found;
     }
-    glint_tally_entry *entry = make_room(list) ? new_entry(text, where) : NULL;
+    const bool has_room = glint_make_room((void **)&list->entries, list->count, &list->capacity,
+                                          sizeof *list->entries);
+    glint_tally_entry *entry = has_room ? new_entry(text, where) : NULL;
     if (entry == NULL || tsearch(entry, &list->tree, compare) == NULL) {
         free_entry(entry);
         return NULL;

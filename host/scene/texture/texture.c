@@ -32,6 +32,13 @@ const char *glint_texture_slot_name(glint_texture_slot slot)
     return names[slot];
 }
 
+bool glint_texture_slot_is_color(glint_texture_slot slot)
+{
+    return slot == GLINT_TEXTURE_BASE_COLOR || slot == GLINT_TEXTURE_EMISSION ||
+           slot == GLINT_TEXTURE_SPECULAR_COLOR || slot == GLINT_TEXTURE_SHEEN_COLOR ||
+           slot == GLINT_TEXTURE_DIFFUSE_TRANSMISSION_COLOR;
+}
+
 // ---- An image -----------------------------------------------------------------------------------
 
 // Removes levels that are too large, so that their memory is free before the next image is read.

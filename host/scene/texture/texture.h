@@ -54,6 +54,9 @@ typedef enum glint_texture_slot {
 
 const char *glint_texture_slot_name(glint_texture_slot slot); // "base colour"
 
+// True if R, G and B are encoded by the sRGB curve.
+bool glint_texture_slot_is_color(glint_texture_slot slot);
+
 typedef enum glint_wrap {
     GLINT_WRAP_REPEAT,
     GLINT_WRAP_CLAMP,

@@ -1,0 +1,31 @@
+// Reads the scene's file safely: its GLB chunks, its JSON and its buffers.
+#ifndef GLINT_DECODER_FILE_HPP
+#define GLINT_DECODER_FILE_HPP
+
+#include "decoder/uri.hpp"
+#include "decoder/writer.hpp"
+
+#include <string>
+
+namespace glint
+{
+
+struct Document {
+    std::string path;   // as the user gave it
+    std::string folder; // resolved; files that the scene refers to must lie under it
+    json root = json::object();
+    bool has_bin = false; // the file is a GLB with a BIN chunk
+    Stored bin;
+};
+
+// Reads the file into `document.root` and `document.bin`. It must be a regular file of at most 4
+// GiB; its JSON at most 1 GiB, nested at most 100 deep.
+void read_document(const char *path, Writer &writer, Document &document);
+
+// Returns the bytes of a buffer, cut to its byteLength, which must be checked. Removes a data URI's
+// text from the JSON, so that memory does not hold it twice.
+Stored read_buffer(Document &document, std::size_t index, Writer &writer);
+
+} // namespace glint
+
+#endif

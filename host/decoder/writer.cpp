@@ -1,0 +1,140 @@
+// Writes documents. See writer.hpp.
+#include "decoder/writer.hpp"
+
+#include "base/whole_io.h"
+#include "decoder/json.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <new>
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace glint
+{
+
+namespace
+{
+
+// Smaller pieces share a mapping: a process may have 65,530.
+constexpr std::uint64_t chunk_bytes = std::uint64_t{1} << 20;
+constexpr std::uint64_t page_bytes = 4096;
+// Bytes whose alignment is enough for a table's row and for a number of a file.
+constexpr std::uint64_t alignment = 16;
+
+std::uint64_t round_up(std::uint64_t bytes, std::uint64_t to)
+{
+    return (bytes + to - 1) / to * to;
+}
+
+} // namespace
+
+Writer::Writer(int file) : file_(file)
+{
+    texts.push_back('\0');
+    end_ = round_up(sizeof(glint_document_header), page_bytes);
+}
+
+Writer::~Writer()
+{
+    for (const Mapping &mapping : mappings_) {
+        munmap(mapping.at, mapping.bytes);
+    }
+}
+
+unsigned char *Writer::map(std::uint64_t bytes, std::uint64_t &offset)
+{
+    const std::uint64_t whole = round_up(bytes, page_bytes);
+    offset = end_;
+    if (ftruncate(file_, static_cast<off_t>(end_ + whole)) != 0) {
+        throw std::bad_alloc();
+    }
+    mappings_.reserve(mappings_.size() + 1);
+    void *at =
+        mmap(nullptr, whole, PROT_READ | PROT_WRITE, MAP_SHARED, file_, static_cast<off_t>(offset));
+    if (at == MAP_FAILED) {
+        throw std::bad_alloc();
+    }
+    mappings_.push_back({at, whole});
+    end_ += whole;
+    return static_cast<unsigned char *>(at);
+}
+
+Stored Writer::allocate(std::uint64_t bytes)
+{
+    Stored stored;
+    stored.size = bytes;
+    if (bytes >= chunk_bytes / 4) {
+        stored.data = map(bytes, stored.offset);
+        return stored;
+    }
+    if (chunk_.size < bytes) {
+        chunk_.data = map(chunk_bytes, chunk_.offset);
+        chunk_.size = chunk_bytes;
+    }
+    stored.data = chunk_.data;
+    stored.offset = chunk_.offset;
+    const std::uint64_t taken = std::min(round_up(bytes, alignment), chunk_.size);
+    chunk_.data += taken;
+    chunk_.offset += taken;
+    chunk_.size -= taken;
+    return stored;
+}
+
+glint_text Writer::text(const std::string &text)
+{
+    const std::string whole = text.c_str(); // a name may hold a zero
+    if (whole.empty()) {
+        return 0;
+    }
+    const auto found = known_.find(whole);
+    if (found != known_.end()) {
+        return found->second;
+    }
+    if (texts.size() + whole.size() >= std::size_t{INT32_MAX}) {
+        throw refusal("its names have more than 2 GiB (leave them out)");
+    }
+    const auto at = static_cast<glint_text>(texts.size());
+    texts.insert(texts.end(), whole.c_str(), whole.c_str() + whole.size() + 1);
+    known_.emplace(whole, at);
+    return at;
+}
+
+glint_run Writer::add_notes(const std::vector<Note> &added)
+{
+    std::vector<glint_document_note> rows;
+    for (const Note &note : added) {
+        rows.push_back({text(note.where), text(note.text)});
+    }
+    return add_run(notes, rows);
+}
+
+void Writer::write(std::uint64_t offset, const void *bytes, std::size_t count) const
+{
+    if (!glint_write_all_at(file_, offset, bytes, count)) {
+        throw shortage(std::string("its contents cannot be stored: ") + std::strerror(errno));
+    }
+}
+
+void Writer::finish(int default_scene)
+{
+    glint_document_header header = {};
+    header.magic = GLINT_DOCUMENT_MAGIC;
+    header.default_scene = default_scene;
+#define TABLE(name, type)                                                                          \
+    if (name.size() > std::size_t{INT32_MAX}) {                                                    \
+        throw refusal("more than 2^31 " #name " (split the scene)");                               \
+    }                                                                                              \
+    write(end_, name.data(), name.size() * sizeof(type));                                          \
+    header.tables[GLINT_TABLE_##name] = {end_, name.size()};                                       \
+    end_ = round_up(end_ + name.size() * sizeof(type), alignment);
+    GLINT_DOCUMENT_TABLES(TABLE)
+#undef TABLE
+    write(0, &header, sizeof header);
+    if (ftruncate(file_, static_cast<off_t>(end_)) != 0) { // also an empty table lies in the file
+        throw shortage(std::string("its contents cannot be stored: ") + std::strerror(errno));
+    }
+}
+
+} // namespace glint

@@ -1,0 +1,86 @@
+// Writes a document (scene/document.h) to a memory file: first the bytes of buffers and images, as
+// they are read, then the tables.
+#ifndef GLINT_DECODER_WRITER_HPP
+#define GLINT_DECODER_WRITER_HPP
+
+#include "scene/document.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace glint
+{
+
+// Bytes in the memory file.
+struct Stored {
+    unsigned char *data = nullptr;
+    std::uint64_t size = 0, offset = 0; // in the file
+};
+
+// What is wrong with a part of the file. `where` may be empty: the part that holds the note.
+struct Note {
+    std::string where, text;
+};
+
+class Writer
+{
+  public:
+    explicit Writer(int file); // borrowed, and empty
+    Writer(const Writer &) = delete;
+    Writer &operator=(const Writer &) = delete;
+    ~Writer();
+
+    // Returns that many zeros, mapped as long as the writer lives. Throws std::bad_alloc.
+    Stored allocate(std::uint64_t bytes);
+
+    glint_text text(const std::string &text);
+
+    // Appends a row and returns its index.
+    template <typename Row>
+    std::int32_t add(std::vector<Row> &table, const Row &row)
+    {
+        table.push_back(row);
+        return static_cast<std::int32_t>(table.size() - 1);
+    }
+
+    // Appends rows and returns their run.
+    template <typename Row, typename Rows>
+    glint_run add_run(std::vector<Row> &table, const Rows &rows)
+    {
+        const glint_run run = {static_cast<std::uint32_t>(table.size()),
+                               static_cast<std::uint32_t>(rows.size())};
+        table.insert(table.end(), rows.begin(), rows.end());
+        return run;
+    }
+
+    glint_run add_notes(const std::vector<Note> &notes);
+
+    // The tables.
+#define TABLE(name, type) std::vector<type> name;
+    GLINT_DOCUMENT_TABLES(TABLE)
+#undef TABLE
+
+    // Writes the tables and the header. Throws a shortage.
+    void finish(int default_scene);
+
+  private:
+    struct Mapping {
+        void *at;
+        std::size_t bytes;
+    };
+    unsigned char *map(std::uint64_t bytes, std::uint64_t &offset);
+    void write(std::uint64_t offset, const void *bytes, std::size_t count) const;
+
+    int file_;
+    std::uint64_t end_ = 0; // of the file; a multiple of the size of a page
+    std::vector<Mapping> mappings_;
+    Stored chunk_; // of what is small; its unused rest
+    std::unordered_map<std::string, glint_text> known_;
+};
+
+} // namespace glint
+
+#endif

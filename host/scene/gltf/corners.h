@@ -1,0 +1,60 @@
+// The corners of drawn triangles.
+#ifndef GLINT_SCENE_GLTF_CORNERS_H
+#define GLINT_SCENE_GLTF_CORNERS_H
+
+#include "scene/gltf/load.h"
+
+typedef struct glint_corner {
+    size_t vertex;
+    size_t element; // of the draw's shape, if there is one
+    glint_vec3 local;
+} glint_corner;
+
+typedef struct glint_corners {
+    glint_corner of[3]; // in stored order
+} glint_corners;
+
+// True if the triangle is stored with the other winding: its node mirrors it, or its joints turn it
+// inside out, but not both.
+static inline bool glint_draw_winds_back(const glint_draw *draw, size_t t)
+{
+    const bool is_inside_out = draw->shape != NULL && glint_shape_is_mirrored(draw->shape, t);
+    return (glint_mat4_determinant3(&draw->to_world) < 0) != is_inside_out;
+}
+
+static inline glint_corners glint_draw_corners(const glint_draw *draw, size_t t, bool winds_back)
+{
+    glint_corners corners;
+    for (size_t c = 0; c < 3; c++) {
+        const size_t from = winds_back && c > 0 ? 3 - c : c;
+        glint_corner *corner = &corners.of[c];
+        corner->vertex = glint_primitive_vertex(draw->primitive, t, from);
+        corner->element = 0;
+        if (draw->shape != NULL) {
+            corner->element = glint_shape_element(draw->shape, t, from);
+            corner->local = draw->shape->positions[corner->element];
+            continue;
+        }
+        double p[3];
+        glint_array_numbers(&draw->primitive->positions, corner->vertex, 3, p);
+        corner->local = (glint_vec3){p[0], p[1], p[2]};
+    }
+    return corners;
+}
+
+static inline bool glint_corners_equal(glint_vec3 a, glint_vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+// True if two corners are at one place. Such a triangle is degenerate under every transform and
+// must not stretch the bounds.
+static inline bool glint_corners_are_collapsed(const glint_corners *corners)
+{
+    const glint_corner *c = corners->of;
+    return glint_corners_equal(c[0].local, c[1].local) ||
+           glint_corners_equal(c[1].local, c[2].local) ||
+           glint_corners_equal(c[2].local, c[0].local);
+}
+
+#endif
