@@ -12,9 +12,11 @@ render() { # render FILE
 cd "$(dirname "$0")/.."
 # ./glint builds only the target of the program.
 [ ! -f "$1/build.ninja" ] ||
-    [ "$(ninja -C "$1" -t inputs glint | grep -cx glint-codec)" = 1 ]
+    [ "$(ninja -C "$1" -t inputs glint | grep -cxE 'glint-(codec|decoder)')" = 2 ]
 # Only the codec links OpenImageIO and its hundreds of libraries.
-[ "$(ldd "$prefix/bin/glint" | grep -c OpenImageIO)" = 0 ]
+for program in bin/glint "$(cd "$prefix" && find . -name glint-decoder)"; do
+    [ "$(ldd "$prefix/$program" | grep -c OpenImageIO)" = 0 ]
+done
 "$prefix/bin/glint" info scenes/axes.gltf --env scenes/axes.hdr >/dev/null
 render x.exr
 [ -s "$prefix/x.exr" ]

@@ -13,8 +13,8 @@
 #include <cmocka.h>
 
 // Returns a packed array of `components` numbers an element.
-static glint_array packed(glint_component type, bool normalized, const void *bytes, size_t count,
-                          size_t element_size)
+static glint_array packed(glint_component_type type, bool normalized, const void *bytes,
+                          size_t count, size_t element_size)
 {
     return (glint_array){.type = type,
                          .normalized = normalized,

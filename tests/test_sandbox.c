@@ -30,7 +30,7 @@ static int in_child(int (*attempt)(void))
 {
     const pid_t process = fork();
     if (process == 0) {
-        _exit(glint_sandbox_enter() ? attempt() : NO_SANDBOX);
+        _exit(glint_sandbox_enter(true) ? attempt() : NO_SANDBOX);
     }
     int how = 0;
     assert_int_equal(waitpid(process, &how, 0), process);

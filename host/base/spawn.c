@@ -6,8 +6,29 @@
 #include <signal.h>
 #include <spawn.h>
 #include <stddef.h>
+#include <stdio.h>
+#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+bool glint_spawn_find(const char *name, char path[PATH_MAX])
+{
+    static const char *const places[] = {"/../" GLINT_LIBRARY_FOLDER "/", "/", "/../"};
+    char own[PATH_MAX];
+    const ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
+    if (length < 0) {
+        return false;
+    }
+    own[length] = '\0';
+    *strrchr(own, '/') = '\0';
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        const int written = snprintf(path, PATH_MAX, "%s%s%s", own, places[i], name);
+        if (written < PATH_MAX && access(path, X_OK) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
 
 int glint_spawn(const char *path, char *const arguments[], int socket, pid_t *process)
 {

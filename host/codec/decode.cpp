@@ -19,14 +19,11 @@ glint_status decode(const glint_codec_request &request, Memory &memory, glint_co
                     glint_error *error)
 {
     try {
-        if (request.work == GLINT_DECODE_MESH) {
-            return decode_mesh(request, memory.file(), error);
-        }
         return request.work == GLINT_DECODE_CHANNELS
                    ? decode_channels(request, memory, answer, error)
                    : decode_picture(request, memory, answer, error);
     } catch (const std::bad_alloc &) {
-        return glint_fail_memory(error, request.work == GLINT_DECODE_MESH ? "a mesh" : "an image");
+        return glint_fail_memory(error, "an image");
     } catch (const std::exception &fault) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", request.path,
                           fault.what());

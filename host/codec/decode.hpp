@@ -30,11 +30,6 @@ class Memory
     Memory &operator=(const Memory &) = delete;
     ~Memory();
 
-    int file() const
-    {
-        return file_;
-    }
-
     // Makes the file this large and zero. Throws std::bad_alloc.
     std::uint8_t *grow(std::size_t bytes);
     // What grow returned last.
@@ -54,9 +49,6 @@ glint_status decode_picture(const glint_codec_request &request, Memory &memory,
                             glint_codec_answer &answer, glint_error *error);
 glint_status decode_channels(const glint_codec_request &request, Memory &memory,
                              glint_codec_answer &answer, glint_error *error);
-
-// Decodes a mesh. The memory file `file` holds the job and receives the results.
-glint_status decode_mesh(const glint_codec_request &request, int file, glint_error *error);
 
 // Refuses a picture that takes more than the request allows.
 glint_status check_cost(const glint_codec_request &request, std::int64_t width, std::int64_t height,

@@ -86,7 +86,7 @@ _Noreturn static void be_encoder(int socket)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     glint_sandbox_close_others(&socket, 1);
-    (void)glint_sandbox_enter();
+    (void)glint_sandbox_enter(true);
     glint_sandbox_leave_no_core();
     for (;;) {
         job *next = calloc(1, sizeof *next);

@@ -49,7 +49,7 @@ _Noreturn static void be_child(const glint_codec_request *request, const glint_c
     const int kept[] = {files->answers, files->results, files->image};
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     glint_sandbox_close_others(kept, sizeof kept / sizeof kept[0]);
-    (void)glint_sandbox_enter();
+    (void)glint_sandbox_enter(true);
     glint_sandbox_limit(&request->limits, request->threads);
     glint_decode(request, files->results, &answer);
     glint_codec_answer_send(files->answers, &answer);

@@ -141,7 +141,7 @@ static int refuse_by_arguments(scmp_filter_ctx filter)
     return fault;
 }
 
-bool glint_sandbox_enter(void)
+bool glint_sandbox_enter(bool may_open)
 {
     scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ALLOW);
     if (filter == NULL) {
@@ -153,6 +153,10 @@ bool glint_sandbox_enter(void)
     }
     for (size_t i = 0; i < sizeof absent / sizeof absent[0]; i++) {
         fault |= refuse(filter, absent[i], ENOSYS);
+    }
+    static const char *const opening[] = {"open", "openat"};
+    for (size_t i = 0; !may_open && i < sizeof opening / sizeof opening[0]; i++) {
+        fault |= refuse(filter, opening[i], EPERM);
     }
     fault |= seccomp_load(filter);
     seccomp_release(filter);

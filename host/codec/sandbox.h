@@ -1,4 +1,5 @@
-// Restricts the children of the codec, so that a file which takes it over gains nothing.
+// Restricts the processes that read files from strangers, so that a file which takes one over gains
+// nothing.
 #ifndef GLINT_CODEC_SANDBOX_H
 #define GLINT_CODEC_SANDBOX_H
 
@@ -7,10 +8,15 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 // Enters the sandbox for good. The process cannot start a process or program. It cannot open files
-// for writing, or make, move or remove them. It cannot connect, or reach other processes. Returns
-// false if the system has no such filters; the limits hold anyway.
-bool glint_sandbox_enter(void);
+// for writing, or make, move or remove them; without `may_open` it cannot open files at all. It
+// cannot connect, or reach other processes. Returns false if the system has no such filters; the
+// limits hold anyway.
+bool glint_sandbox_enter(bool may_open);
 
 // Closes all descriptors from GLINT_CODEC_SOCKET on except the `count` given ones (−1: none). So a
 // child cannot answer for another one.
@@ -22,5 +28,9 @@ void glint_sandbox_leave_no_core(void);
 // Limits this process to the memory and time for one file, and to few open files. `threads` is the
 // number of threads that decode; 0: one for each core.
 void glint_sandbox_limit(const glint_decode_limits *limits, int threads);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -3,6 +3,7 @@
 #define GLINT_DECODER_DRACO_HPP
 
 #include "decoder/json.hpp"
+#include "decoder/limits.hpp"
 #include "decoder/model.hpp"
 
 namespace glint
@@ -13,10 +14,10 @@ namespace glint
 // accessor has its data.
 void check_draco(const json &source, const Place &place, Model &model);
 
-// Decodes model.draco in the decoder's process, each view once. The primitives then refer to new
+// Decodes model.draco, each view once. The primitives then refer to new
 // accessors, with the counts of Draco's data; a note says where the file's accessors have others.
 // Refuses damaged data. Throws a shortage if memory is short.
-void decode_draco(Writer &writer, Model &model);
+void decode_draco(Limits &limits, Writer &writer, Model &model);
 
 } // namespace glint
 

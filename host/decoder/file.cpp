@@ -1,18 +1,13 @@
 // Reads the scene's file and never trusts it. Lengths are compared with the bytes present before
-// memory is allocated. Only regular files are opened, because a FIFO or a device would hang. Files
-// that a scene refers to must lie under its folder.
+// memory is allocated.
 #include "decoder/file.hpp"
 
 #include "base/whole_io.h"
 #include "decoder/foreign_format.h"
-#include "scene/gltf/find_file.h"
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,47 +21,25 @@ constexpr std::uint64_t largest_file = std::uint64_t{1} << 32; // the limit of a
 constexpr std::uint64_t largest_json = std::uint64_t{1} << 30;
 constexpr std::size_t deepest_nesting = 100;
 
+// A regular file. Refuses others.
 class File
 {
   public:
-    // O_NONBLOCK: do not wait for a FIFO's other end.
-    explicit File(const std::string &path)
-        : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY))
+    explicit File(int descriptor) : descriptor_(descriptor) // owned
     {
+        struct stat facts = {};
+        if (fstat(descriptor_, &facts) != 0 || !S_ISREG(facts.st_mode)) {
+            close(descriptor_);
+            throw refusal("it is not a regular file");
+        }
+        size_ = static_cast<std::uint64_t>(facts.st_size);
     }
     ~File()
     {
-        if (descriptor_ >= 0) {
-            close(descriptor_);
-        }
-    }
-    File(File &&other) noexcept : descriptor_(other.descriptor_), size_(other.size_)
-    {
-        other.descriptor_ = -1;
+        close(descriptor_);
     }
     File(const File &) = delete;
     File &operator=(const File &) = delete;
-    File &operator=(File &&) = delete;
-
-    // Returns the reason why the file cannot be read; empty if it can.
-    std::string trouble()
-    {
-        if (descriptor_ < 0) {
-            return std::strerror(errno);
-        }
-        struct stat facts = {};
-        if (fstat(descriptor_, &facts) != 0) {
-            return std::strerror(errno);
-        }
-        if (S_ISDIR(facts.st_mode)) {
-            return "it is a folder, not a file";
-        }
-        if (!S_ISREG(facts.st_mode)) {
-            return "it is not a regular file";
-        }
-        size_ = static_cast<std::uint64_t>(facts.st_size);
-        return "";
-    }
 
     std::uint64_t size() const
     {
@@ -235,26 +208,25 @@ void read_glb(const File &file, Writer &writer, Document &document)
     }
 }
 
-Stored read_external(const Document &document, const std::string &uri, const Place &place,
+int ask(Document &document, const std::string &uri, const Place &place)
+{
+    try {
+        return document.asker.open(uri);
+    } catch (const refusal &reason) {
+        refuse(place, in_quotes(uri) + ": " + reason.what());
+    }
+}
+
+Stored read_external(Document &document, const std::string &uri, const Place &place,
                      std::uint64_t length, Writer &writer)
 {
-    char *found = nullptr;
-    glint_error error = {};
-    if (glint_find_file(document.folder.c_str(), uri.c_str(), &found, &error) != GLINT_OK) {
-        refuse(place, in_quotes(uri) + ": " + error.message);
-    }
-    const std::string path = found;
-    std::free(found);
-    File file(path);
-    const std::string trouble = file.trouble();
-    if (!trouble.empty()) {
-        refuse(place, in_quotes(uri) + ": " + trouble);
-    }
+    const File file(ask(document, uri, place));
     if (file.size() < length) {
         refuse(place, in_quotes(uri) + " has " + counted(file.size(), "byte") +
                           ", byteLength says " + std::to_string(length) +
                           " (the file is cut short, or another one)");
     }
+    document.limits.add_file(length);
     const Stored bytes = writer.allocate(length);
     if (!file.read(0, bytes.data, bytes.size)) {
         refuse(place, in_quotes(uri) + " could not be read (is it still being written?)");
@@ -278,28 +250,17 @@ std::array<unsigned char, GLINT_FOREIGN_HEAD> read_head(const File &file, const 
 
 } // namespace
 
-void read_document(const char *path, Writer &writer, Document &document)
+void read_document(const char *path, int scene, Writer &writer, Document &document)
 {
-    document.path = path;
-    File file(document.path);
-    std::string trouble = file.trouble();
-    if (!trouble.empty()) {
-        throw refusal("cannot be opened: " + trouble + " (give a .gltf or .glb file)");
-    }
+    const File file(scene);
+    document.limits.add_file(file.size());
     if (file.size() == 0) {
         throw refusal("byte 0: the file is empty (export it again)");
     }
-    const auto head = read_head(file, document.path);
+    const auto head = read_head(file, path);
     if (file.size() > largest_file) {
         throw refusal("the file has more than 4 GiB (put the data into .bin files beside it)");
     }
-    char *folder = nullptr;
-    glint_error error = {};
-    if (glint_find_folder(path, &folder, &error) != GLINT_OK) {
-        pass_on(error);
-    }
-    document.folder = folder;
-    std::free(folder);
     if (std::memcmp(head.data(), "glTF", 4) == 0) {
         read_glb(file, writer, document);
         return;

@@ -2,6 +2,7 @@
 #ifndef GLINT_DECODER_FILE_HPP
 #define GLINT_DECODER_FILE_HPP
 
+#include "decoder/ask.hpp"
 #include "decoder/uri.hpp"
 #include "decoder/writer.hpp"
 
@@ -11,16 +12,18 @@ namespace glint
 {
 
 struct Document {
-    std::string path;   // as the user gave it
-    std::string folder; // resolved; files that the scene refers to must lie under it
+    Document(Asker &glint, Limits &limited) : asker(glint), limits(limited) {}
+
+    Asker &asker;
+    Limits &limits;
     json root = json::object();
     bool has_bin = false; // the file is a GLB with a BIN chunk
     Stored bin;
 };
 
-// Reads the file into `document.root` and `document.bin`. It must be a regular file of at most 4
-// GiB; its JSON at most 1 GiB, nested at most 100 deep.
-void read_document(const char *path, Writer &writer, Document &document);
+// Reads the file, which it closes, into `document.root` and `document.bin`. It must be a regular
+// file of at most 4 GiB; its JSON at most 1 GiB, nested at most 100 deep. `path` is its name.
+void read_document(const char *path, int scene, Writer &writer, Document &document);
 
 // Returns the bytes of a buffer, cut to its byteLength, which must be checked. Removes a data URI's
 // text from the JSON, so that memory does not hold it twice.

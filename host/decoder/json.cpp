@@ -47,14 +47,6 @@ void refuse(const Place &place, const std::string &cause)
     throw refusal(place.text(), cause);
 }
 
-void pass_on(const glint_error &error)
-{
-    if (error.code == GLINT_OUT_OF_MEMORY) {
-        throw shortage(error.message);
-    }
-    throw refusal(error.message);
-}
-
 std::string in_quotes(const std::string &text)
 {
     constexpr std::size_t limit = 60;

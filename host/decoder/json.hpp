@@ -8,8 +8,6 @@
 #ifndef GLINT_DECODER_JSON_HPP
 #define GLINT_DECODER_JSON_HPP
 
-#include "base/status.h"
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -73,9 +71,6 @@ class Place
 };
 
 [[noreturn]] void refuse(const Place &place, const std::string &cause);
-
-// Throws the failure of a function of C.
-[[noreturn]] void pass_on(const glint_error &error);
 
 // Returns the text in quotes, cut after a few dozen characters.
 std::string in_quotes(const std::string &text);

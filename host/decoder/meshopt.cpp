@@ -1,12 +1,10 @@
 // Unpacks views packed by meshoptimizer. See meshopt.hpp.
 //
-// The library decodes in glint's own process. It knows the ends of input and output, and fuzzing
-// with guard pages found no access beyond them. glint allocates nothing that the packed bytes
+// The library knows the ends of input and output, and fuzzing
+// with guard pages found no access beyond them. The decoder allocates nothing that the packed bytes
 // cannot hold: the format needs a bit for eight bytes of a vertex, or a byte for an index or a
 // triangle.
 #include "decoder/meshopt.hpp"
-
-#include "base/free_memory.h"
 
 #include <algorithm>
 #include <array>
@@ -212,7 +210,7 @@ void unpack(const PackedView &packed, const unsigned char *from, unsigned char *
 }
 
 // Checks the total size. Views may share packed bytes, but a small file must not fill the memory.
-void check_total(const Model &model, std::uint64_t unpacked)
+void check_total(const Model &model, std::uint64_t unpacked, std::uint64_t left)
 {
     const std::uint64_t there = buffer_bytes(model);
     if (unpacked / most_bytes_each > there) {
@@ -221,7 +219,6 @@ void check_total(const Model &model, std::uint64_t unpacked)
                                             " (packed views overlap: the "
                                             "file is damaged)");
     }
-    const std::uint64_t left = glint_free_memory();
     if (unpacked > left) {
         throw shortage("its packed views take " + counted(unpacked, "byte") + ", and " +
                        counted(left, "byte") + " of memory are free (split the scene)");
@@ -262,7 +259,7 @@ void check_packed_view(const json &root, std::size_t index, Model &model)
     model.packed.push_back(packed);
 }
 
-void unpack_views(Writer &writer, Model &model)
+void unpack_views(const Limits &limits, Writer &writer, Model &model)
 {
     // Unpack equal packed views only once.
     using Key = std::tuple<std::size_t, std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t,
@@ -279,7 +276,7 @@ void unpack_views(Writer &writer, Model &model)
         unpacked = std::min(unpacked, largest_whole) + (same.empty() ? one.count * one.stride : 0);
         same.push_back(i);
     }
-    check_total(model, unpacked);
+    check_total(model, unpacked, limits.free_bytes());
     for (const auto &entry : views) {
         const PackedView &one = model.packed[entry.second[0]];
         const Stored bytes = writer.allocate(one.count * one.stride);

@@ -4,6 +4,7 @@
 #define GLINT_DECODER_MESHOPT_HPP
 
 #include "decoder/json.hpp"
+#include "decoder/limits.hpp"
 #include "decoder/model.hpp"
 
 namespace glint
@@ -18,7 +19,7 @@ void check_packed_view(const json &root, std::size_t index, Model &model);
 
 // Unpacks each of model.packed into a buffer of its own, to which its view then refers. The buffers
 // must be loaded. Refuses damaged data; throws a shortage if memory is short.
-void unpack_views(Writer &writer, Model &model);
+void unpack_views(const Limits &limits, Writer &writer, Model &model);
 
 } // namespace glint
 

@@ -17,8 +17,9 @@ namespace glint
 namespace
 {
 
-// Smaller pieces share a mapping: a process may have 65,530.
-constexpr std::uint64_t chunk_bytes = std::uint64_t{1} << 20;
+// Smaller pieces share a mapping: a process may have 65,530. So the mappings grow with the file.
+constexpr std::uint64_t chunk_least = std::uint64_t{1} << 16;
+constexpr std::uint64_t chunk_share = 16; // of the file
 constexpr std::uint64_t page_bytes = 4096;
 // Bytes whose alignment is enough for a table's row and for a number of a file.
 constexpr std::uint64_t alignment = 16;
@@ -32,8 +33,9 @@ std::uint64_t round_up(std::uint64_t bytes, std::uint64_t to)
 
 Writer::Writer(int file) : file_(file)
 {
+    std::uint64_t begin = 0;
     texts.push_back('\0');
-    end_ = round_up(sizeof(glint_document_header), page_bytes);
+    header_ = reinterpret_cast<glint_document_header *>(map(sizeof *header_, begin));
 }
 
 Writer::~Writer()
@@ -65,13 +67,14 @@ Stored Writer::allocate(std::uint64_t bytes)
 {
     Stored stored;
     stored.size = bytes;
-    if (bytes >= chunk_bytes / 4) {
+    const std::uint64_t chunk = std::max(chunk_least, end_ / chunk_share / page_bytes * page_bytes);
+    if (bytes >= chunk / 4) {
         stored.data = map(bytes, stored.offset);
         return stored;
     }
     if (chunk_.size < bytes) {
-        chunk_.data = map(chunk_bytes, chunk_.offset);
-        chunk_.size = chunk_bytes;
+        chunk_.data = map(chunk, chunk_.offset);
+        chunk_.size = chunk;
     }
     stored.data = chunk_.data;
     stored.offset = chunk_.offset;
@@ -119,19 +122,17 @@ void Writer::write(std::uint64_t offset, const void *bytes, std::size_t count) c
 
 void Writer::finish(int default_scene)
 {
-    glint_document_header header = {};
-    header.magic = GLINT_DOCUMENT_MAGIC;
-    header.default_scene = default_scene;
+    header_->magic = GLINT_DOCUMENT_MAGIC;
+    header_->default_scene = default_scene;
 #define TABLE(name, type)                                                                          \
     if (name.size() > std::size_t{INT32_MAX}) {                                                    \
         throw refusal("more than 2^31 " #name " (split the scene)");                               \
     }                                                                                              \
     write(end_, name.data(), name.size() * sizeof(type));                                          \
-    header.tables[GLINT_TABLE_##name] = {end_, name.size()};                                       \
+    header_->tables[GLINT_TABLE_##name] = {end_, name.size()};                                     \
     end_ = round_up(end_ + name.size() * sizeof(type), alignment);
     GLINT_DOCUMENT_TABLES(TABLE)
 #undef TABLE
-    write(0, &header, sizeof header);
     if (ftruncate(file_, static_cast<off_t>(end_)) != 0) { // also an empty table lies in the file
         throw shortage(std::string("its contents cannot be stored: ") + std::strerror(errno));
     }

@@ -38,6 +38,12 @@ class Writer
 
     glint_text text(const std::string &text);
 
+    // Where the header says what is done at present.
+    glint_document_doing *doing()
+    {
+        return &header_->doing;
+    }
+
     // Appends a row and returns its index.
     template <typename Row>
     std::int32_t add(std::vector<Row> &table, const Row &row)
@@ -75,7 +81,8 @@ class Writer
     void write(std::uint64_t offset, const void *bytes, std::size_t count) const;
 
     int file_;
-    std::uint64_t end_ = 0; // of the file; a multiple of the size of a page
+    glint_document_header *header_; // mapped
+    std::uint64_t end_ = 0;         // of the file; a multiple of the size of a page
     std::vector<Mapping> mappings_;
     Stored chunk_; // of what is small; its unused rest
     std::unordered_map<std::string, glint_text> known_;

@@ -31,25 +31,9 @@ static struct {
     bool is_ready; // the codec has reported that it is ready
 } codec = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
-// The installed codec is in the folder of libraries (CMakeLists.txt). In the build it is beside the
-// program, or above it.
 bool glint_codec_find(char path[PATH_MAX])
 {
-    static const char *const places[] = {"/../" GLINT_LIBRARY_FOLDER "/", "/", "/../"};
-    char own[PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
-    if (length < 0) {
-        return false;
-    }
-    own[length] = '\0';
-    *strrchr(own, '/') = '\0';
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
-        const int written = snprintf(path, PATH_MAX, "%s%s" GLINT_CODEC_PROGRAM, own, places[i]);
-        if (written < PATH_MAX && access(path, X_OK) == 0) {
-            return true;
-        }
-    }
-    return false;
+    return glint_spawn_find(GLINT_CODEC_PROGRAM, path);
 }
 
 // Starts the codec unless it runs. The caller holds the lock. On a failure the error's code is

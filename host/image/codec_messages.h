@@ -29,7 +29,6 @@ extern "C" {
 typedef enum glint_codec_work {
     GLINT_DECODE_PICTURE,
     GLINT_DECODE_CHANNELS, // all channels of an EXR
-    GLINT_DECODE_MESH,     // a Draco mesh in the memory file (mesh_decoding.h)
     GLINT_ENCODE,          // pixels in the memory file (encoding.h)
 } glint_codec_work;
 

@@ -52,31 +52,23 @@ glint_decode_limits glint_decoder_limits(uint64_t file_bytes)
 
 // ---- Answers ------------------------------------------------------------------------------------
 
-static bool is_mesh(const glint_codec_request *request)
-{
-    return request->work == GLINT_DECODE_MESH;
-}
-
 // Advice for a file that exceeds its limits.
-static const char *way_out(const glint_codec_request *request)
-{
-    return is_mesh(request) ? "export it without Draco" : "give --allow-large-images";
-}
+#define WAY_OUT "give --allow-large-images"
 
 static glint_status fail_of_death(const glint_codec_request *request, int how, glint_error *error)
 {
     const int number = WIFSIGNALED(how) ? WTERMSIG(how) : 0;
     if (number == SIGXCPU || number == SIGALRM) {
-        return glint_fail(error, GLINT_BAD_INPUT,
-                          "%s: takes more than %" PRIu32 " s to decode (it is damaged; or %s)",
-                          request->path,
-                          number == SIGXCPU ? request->limits.cpu_seconds : request->limits.seconds,
-                          way_out(request));
+        return glint_fail(
+            error, GLINT_BAD_INPUT,
+            "%s: takes more than %" PRIu32 " s to decode (it is damaged; or " WAY_OUT ")",
+            request->path,
+            number == SIGXCPU ? request->limits.cpu_seconds : request->limits.seconds);
     }
     return glint_fail(error, GLINT_BAD_INPUT,
                       "%s: the decoder failed on it: it is damaged or unusual (make the file "
-                      "anew, or %s)",
-                      request->path, is_mesh(request) ? way_out(request) : "convert it to EXR");
+                      "anew, or convert it to EXR)",
+                      request->path);
 }
 
 static bool is_credible(const glint_codec_request *request, const glint_codec_answer *answer)
@@ -97,21 +89,17 @@ static bool is_credible(const glint_codec_request *request, const glint_codec_an
            answer->name_bytes <= GLINT_DECODE_NAMES_MAX;
 }
 
-static const char *what_is_decoded(const glint_codec_request *request)
-{
-    return is_mesh(request) ? "a mesh" : "an image";
-}
-
 static glint_status take(const glint_codec_request *request, const glint_codec_answer *answer,
                          glint_stored *stored, glint_error *error)
 {
     if (answer->kind == GLINT_CODEC_DONE && answer->status == GLINT_OUT_OF_MEMORY) {
         if (request->limits.memory_bytes == 0) {
-            return glint_fail_memory(error, what_is_decoded(request));
+            return glint_fail_memory(error, "an image");
         }
         return glint_fail(error, GLINT_BAD_INPUT,
-                          "%s: takes more than %" PRIu64 " MiB to decode (it is damaged; or %s)",
-                          request->path, request->limits.memory_bytes / MIB, way_out(request));
+                          "%s: takes more than %" PRIu64
+                          " MiB to decode (it is damaged; or " WAY_OUT ")",
+                          request->path, request->limits.memory_bytes / MIB);
     }
     if (answer->kind == GLINT_CODEC_DONE && answer->status != GLINT_OK) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s", answer->message);
@@ -119,7 +107,7 @@ static glint_status take(const glint_codec_request *request, const glint_codec_a
     if (answer->kind != GLINT_CODEC_DONE) {
         return fail_of_death(request, answer->status, error);
     }
-    if (!is_mesh(request) && !is_credible(request, answer)) {
+    if (!is_credible(request, answer)) {
         return fail_of_death(request, 0, error);
     }
     stored->facts = answer->facts;
@@ -134,7 +122,7 @@ static glint_status ask(const glint_codec_request *request, int image, glint_sto
 {
     glint_codec_answer *answer = calloc(1, sizeof *answer);
     if (answer == NULL) {
-        return glint_fail_memory(error, what_is_decoded(request));
+        return glint_fail_memory(error, "an image");
     }
     glint_status status = glint_codec_ask(request, stored->file, image, answer, error);
     if (status == GLINT_OK) {
@@ -199,23 +187,6 @@ glint_status glint_decoder_run_within(const glint_image_source *source, bool all
     if (status != GLINT_OK) {
         glint_stored_free(stored);
     }
-    return status;
-}
-
-glint_status glint_decoder_run_mesh(const char *name, const glint_decode_limits *limits, int file,
-                                    glint_error *error)
-{
-    glint_stored stored = {.path = name, .file = file};
-    glint_codec_request *request = calloc(1, sizeof *request);
-    if (request == NULL) {
-        return glint_fail_memory(error, "a mesh");
-    }
-    snprintf(request->path, sizeof request->path, "%s", name);
-    request->work = GLINT_DECODE_MESH;
-    request->limits = *limits;
-    request->threads = 1;
-    const glint_status status = ask(request, -1, &stored, error);
-    free(request);
     return status;
 }
 

@@ -38,13 +38,6 @@ glint_status glint_decoder_run_within(const glint_image_source *source, bool all
 // The limits of a file of this size, unless glint_decoder_allow_large lifted them.
 glint_decode_limits glint_decoder_limits(uint64_t file_bytes);
 
-// Decodes a mesh in the memory file `file` (mesh_decoding.h), which the caller keeps. `name` is its
-// name in messages. A mesh can break the process that decodes it. So the caller must check the
-// counts that it finds in the file, and all indices. Errors: GLINT_BAD_INPUT with the name,
-// GLINT_OUT_OF_MEMORY.
-glint_status glint_decoder_run_mesh(const char *name, const glint_decode_limits *limits, int file,
-                                    glint_error *error);
-
 void glint_stored_free(glint_stored *stored);
 
 // Reads this number of bytes from `offset` on; several threads may read at once. Errors: as

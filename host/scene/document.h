@@ -26,14 +26,14 @@ typedef struct glint_run {
 } glint_run;
 
 // glTF's codes of component types.
-typedef enum glint_component {
+typedef enum glint_component_type {
     GLINT_COMPONENT_INT8 = 5120,
     GLINT_COMPONENT_UINT8 = 5121,
     GLINT_COMPONENT_INT16 = 5122,
     GLINT_COMPONENT_UINT16 = 5123,
     GLINT_COMPONENT_UINT32 = 5125,
     GLINT_COMPONENT_FLOAT = 5126,
-} glint_component;
+} glint_component_type;
 
 // Returns the bytes of a component; 0 for what is no code.
 static inline uint32_t glint_component_bytes(int32_t type)
@@ -70,7 +70,7 @@ typedef struct glint_document_array {
     uint32_t sparse_count;
     int32_t sparse_type; // of the indices: unsigned integers that ascend, each below `count`
     uint32_t stride;
-    int32_t type;       // a glint_component
+    int32_t type;       // a glint_component_type
     int32_t components; // of an element
     int32_t is_normalized;
     int32_t accessor; // its index in the file
@@ -240,10 +240,17 @@ typedef struct glint_document_place {
     uint64_t offset, count; // of a table: bytes from the block's beginning, and rows
 } glint_document_place;
 
+// What the reader works on, for a message if it dies.
+typedef struct glint_document_doing {
+    char name[128];   // of a part, such as bufferViews[3]; empty: the whole file
+    uint32_t seconds; // of CPU time that it may take
+} glint_document_doing;
+
 typedef struct glint_document_header {
     uint64_t magic;
+    glint_document_doing doing;
     int32_t default_scene; // −1: the file names none
-    int32_t zero;
+    int32_t unused;
     glint_document_place tables[GLINT_TABLES];
 } glint_document_header;
 

@@ -12,6 +12,7 @@ export POCL_CACHE_DIR=$work/cache
 # A glint with a codec of its own, which can be replaced.
 mkdir bin
 cp "$glint" bin/glint
+cp "$(dirname "$glint")/glint-decoder" bin/
 glint=$work/bin/glint
 codec=$work/bin/glint-codec
 picture=("$scene" --size 16x9 --progress none)

@@ -2,12 +2,11 @@
 //
 //   fuzz TARGET SECONDS SEED FOLDER [FILE…]
 //
-// TARGET is gltf, textures, options, images or texts. Inputs are mutations of the FILEs; for
-// options
-// the FILEs hold command lines. The fuzzer writes each input to FOLDER before reading it, so a
-// crash
-// leaves its input there. The image decoder's child processes may die, and are counted; the parent
-// must live. Exit status 0: all inputs were read or refused. The same seed gives the same inputs.
+// TARGET is gltf, textures, options, images, texts or documents. Inputs are mutations of the FILEs;
+// for options the FILEs hold command lines, for documents what `fuzz write-documents` wrote. The
+// fuzzer writes each input to FOLDER before reading it, so a crash leaves its input there. Decoders
+// may die in a library, and are counted; glint must live, and no sanitizer may end glint-decoder.
+// Exit status 0: all inputs were read or refused. The same seed gives the same inputs.
 #include "cli/commands.h"
 #include "cli/common/frame_list.h"
 #include "cli/common/frame_name.h"
@@ -17,6 +16,8 @@
 #include "report/bench/baseline.h"
 #include "report/farm_report.h"
 #include "report/frame/fingerprint.h"
+#include "scene/gltf/load.h"
+#include "scene/gltf/reader.h"
 #include "scene/scene.h"
 #include "scene/shape/topology.h"
 
@@ -25,7 +26,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <time.h>
+#include <unistd.h>
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 #define LONGEST (1 << 20)
@@ -186,6 +189,10 @@ static void write_input(const char *name, const text *t)
 
 static void count_death(tallies *sum, const char *message)
 {
+    if (strstr(message, "glint-decoder: it does not run") != NULL) {
+        fprintf(stderr, "fuzz: a sanitizer ended it: %s\n", message);
+        exit(1);
+    }
     sum->deaths +=
         strstr(message, "the decoder failed") != NULL || strstr(message, " to decode (") != NULL;
 }
@@ -242,6 +249,60 @@ static void load_scene(tallies *sum)
     glint_scene_free(&scene);
     glint_warnings_free(&warnings);
     count(sum, status, &error);
+}
+
+// Loads a mutated document, with references that are whole words of 32 bits.
+static void try_documents(const text *t, tallies *sum)
+{
+    static const uint32_t wrong[] = {0,   1,          2,         3,          7,
+                                     100, UINT32_MAX, INT32_MAX, 0x80000000, 0x7fc00000};
+    glint_scene_source *source;
+    glint_scene scene = {0};
+    glint_warnings warnings = {0};
+    glint_error error = {0};
+    const int file = memfd_create("document", MFD_CLOEXEC);
+    for (size_t i = below(4) + 1; i > 0 && t->length >= 4; i--) {
+        uint32_t word = wrong[below(COUNT(wrong))];
+        word = below(8) == 0 ? (uint32_t)next_random() : word;
+        memcpy(t->bytes + below(t->length / 4) * 4, &word, sizeof word);
+    }
+    write_input("input.document", t);
+    if (file < 0 || write(file, t->bytes, t->length) != (ssize_t)t->length) {
+        exit(2);
+    }
+    glint_status status =
+        glint_scene_open_document(place("input.gltf"), file, NULL, &source, &error);
+    close(file);
+    if (status == GLINT_OK) {
+        status = glint_scene_at(source, 0.5, &scene, &warnings, &error);
+        glint_scene_close(source);
+    }
+    glint_scene_free(&scene);
+    glint_warnings_free(&warnings);
+    count(sum, status, &error);
+}
+
+// Writes the documents of scenes: documents FOLDER FILE…
+static int write_documents(const char *to, char **scenes)
+{
+    for (int i = 0; scenes[i] != NULL; i++) {
+        char name[4096], bytes[4096];
+        int file;
+        if (glint_reader_run(scenes[i], &file, NULL) != GLINT_OK) {
+            continue;
+        }
+        snprintf(name, sizeof name, "%s/%d.document", to, i);
+        FILE *out = fopen(name, "wb");
+        for (ssize_t length; out != NULL && (length = read(file, bytes, sizeof bytes)) > 0;) {
+            fwrite(bytes, 1, (size_t)length, out);
+        }
+        close(file);
+        if (out == NULL || fclose(out) != 0) {
+            perror(name);
+            return 2;
+        }
+    }
+    return 0;
 }
 
 static void try_gltf(const text *t, tallies *sum)
@@ -375,7 +436,7 @@ static const struct {
     void (*attempt)(const text *t, tallies *sum);
 } targets[] = {
     {"gltf", try_gltf},     {"textures", try_textures}, {"options", try_options},
-    {"images", try_images}, {"texts", try_texts},
+    {"images", try_images}, {"texts", try_texts},       {"documents", try_documents},
 };
 
 // ---- The run ------------------------------------------------------------------------------------
@@ -396,11 +457,16 @@ static text read_seed(const char *path)
 int main(int argc, char **argv)
 {
     size_t target = 0;
+    if (argc > 3 && strcmp(argv[1], "write-documents") == 0) {
+        return write_documents(argv[2], argv + 3);
+    }
     while (argc > 5 && target < COUNT(targets) && strcmp(argv[1], targets[target].name) != 0) {
         target++;
     }
     if (argc < 6 || target == COUNT(targets)) {
-        fprintf(stderr, "fuzz gltf|textures|options|images|texts SECONDS SEED FOLDER FILE…\n");
+        fprintf(stderr,
+                "fuzz gltf|textures|options|images|texts|documents SECONDS SEED FOLDER FILE…\n"
+                "fuzz write-documents FOLDER SCENE…\n");
         return 2;
     }
     const double seconds = atof(argv[2]);
@@ -424,7 +490,9 @@ int main(int argc, char **argv)
             memcpy(input.bytes, seed->bytes, seed->length);
         }
         input.length = seed->length;
-        mutate(&input);
+        if (targets[target].attempt != try_documents) {
+            mutate(&input);
+        }
         targets[target].attempt(&input, &sum);
     }
     printf("%s: %" PRIu64 " inputs: %" PRIu64 " read, %" PRIu64

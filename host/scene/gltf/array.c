@@ -15,7 +15,7 @@ static const unsigned char zeros[64];
         loaded;                                                                                    \
     })
 
-static uint32_t load_index(glint_component type, const unsigned char *bytes, size_t i)
+static uint32_t load_index(glint_component_type type, const unsigned char *bytes, size_t i)
 {
     switch (type) {
     case GLINT_COMPONENT_UINT8:
@@ -63,13 +63,13 @@ glint_array glint_array_open(const glint_document *document, int32_t index)
         return array;
     }
     const glint_document_array *row = &document->arrays[index];
-    array.type = (glint_component)row->type;
+    array.type = (glint_component_type)row->type;
     array.normalized = row->is_normalized != 0;
     array.count = row->count;
     array.element_size = glint_component_bytes(row->type) * (size_t)row->components;
     array.bytes = row->offset == 0 ? NULL : document->block + row->offset;
     array.stride = row->stride;
-    array.sparse = (glint_sparse){row->sparse_count, (glint_component)row->sparse_type,
+    array.sparse = (glint_sparse){row->sparse_count, (glint_component_type)row->sparse_type,
                                   document->block + row->sparse_indices,
                                   document->block + row->sparse_elements};
     return array;
@@ -80,7 +80,7 @@ uint32_t glint_array_index(const glint_array *array, size_t i)
     return load_index(array->type, element(array, i), 0);
 }
 
-uint32_t glint_component_largest(glint_component type)
+uint32_t glint_component_largest(glint_component_type type)
 {
     return type == GLINT_COMPONENT_UINT8    ? UINT8_MAX
            : type == GLINT_COMPONENT_UINT16 ? UINT16_MAX

@@ -12,16 +12,16 @@ extern "C" {
 
 // Elements that stand in for some of an array's own.
 typedef struct glint_sparse {
-    size_t count;                  // 0: none
-    glint_component index_type;    // unsigned
-    const unsigned char *indices;  // [count], ascending
-    const unsigned char *elements; // [count], packed tightly
+    size_t count;                    // 0: none
+    glint_component_type index_type; // unsigned
+    const unsigned char *indices;    // [count], ascending
+    const unsigned char *elements;   // [count], packed tightly
 } glint_sparse;
 
 // An array. It borrows its bytes and reads them in place, in any order, so the file's size limits
 // the memory, not its counts. Zero is valid: no elements.
 typedef struct glint_array {
-    glint_component type;
+    glint_component_type type;
     bool normalized;            // integers stand for [−1, 1] or [0, 1]
     size_t count;               // elements
     size_t element_size;        // bytes
@@ -37,7 +37,7 @@ glint_array glint_array_open(const glint_document *document, int32_t index);
 uint32_t glint_array_index(const glint_array *array, size_t i);
 
 // Returns the largest value that a type of unsigned integers holds.
-uint32_t glint_component_largest(glint_component type);
+uint32_t glint_component_largest(glint_component_type type);
 
 // Reads `n` components of element i as numbers.
 void glint_array_numbers(const glint_array *array, size_t i, size_t n, double *numbers);

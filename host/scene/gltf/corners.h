@@ -24,12 +24,11 @@ static inline bool glint_draw_winds_back(const glint_draw *draw, size_t t)
 
 static inline glint_corners glint_draw_corners(const glint_draw *draw, size_t t, bool winds_back)
 {
-    glint_corners corners;
+    glint_corners corners = {0};
     for (size_t c = 0; c < 3; c++) {
         const size_t from = winds_back && c > 0 ? 3 - c : c;
         glint_corner *corner = &corners.of[c];
         corner->vertex = glint_primitive_vertex(draw->primitive, t, from);
-        corner->element = 0;
         if (draw->shape != NULL) {
             corner->element = glint_shape_element(draw->shape, t, from);
             corner->local = draw->shape->positions[corner->element];

@@ -100,24 +100,35 @@ static bool is_below(const char *path, const char *folder)
     return strncmp(path, folder, length) == 0 && (path[length] == '/' || path[length] == '\0');
 }
 
-// Refuses a file that cannot be read, or is not a regular one.
+glint_status glint_find_open(const char *path, int *file, uint64_t *bytes, glint_error *error)
+{
+    struct stat facts;
+    // O_NONBLOCK: do not wait for a pipe's other end.
+    const int opened = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    *file = -1;
+    if (opened < 0) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s", strerror(errno));
+    }
+    const char *trouble = fstat(opened, &facts) != 0 ? strerror(errno)
+                          : S_ISDIR(facts.st_mode)   ? "it is a folder, not a file"
+                          : !S_ISREG(facts.st_mode)  ? "it is not a regular file"
+                                                     : NULL;
+    if (trouble != NULL) {
+        (void)close(opened);
+        return glint_fail(error, GLINT_BAD_INPUT, "%s", trouble);
+    }
+    *file = opened;
+    *bytes = (uint64_t)facts.st_size;
+    return GLINT_OK;
+}
+
 static glint_status check_regular(const char *path, glint_error *error)
 {
-    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    struct stat facts;
-    const bool is_known = file >= 0 && fstat(file, &facts) == 0;
-    const int trouble = errno;
-    if (file >= 0) {
-        (void)close(file);
-    }
-    if (!is_known) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s", strerror(trouble));
-    }
-    if (S_ISDIR(facts.st_mode)) {
-        return glint_fail(error, GLINT_BAD_INPUT, "it is a folder, not a file");
-    }
-    return S_ISREG(facts.st_mode) ? GLINT_OK
-                                  : glint_fail(error, GLINT_BAD_INPUT, "it is not a regular file");
+    int file;
+    uint64_t bytes;
+    TRY(glint_find_open(path, &file, &bytes, error));
+    (void)close(file);
+    return GLINT_OK;
 }
 
 glint_status glint_find_file(const char *folder, const char *uri, char **path, glint_error *error)

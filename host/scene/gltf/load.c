@@ -42,13 +42,9 @@ static void free_load(glint_load *load)
 
 // ---- Opening ------------------------------------------------------------------------------------
 
-static glint_status read_document(const char *path, glint_load *load, glint_error *error)
+static glint_status open_document(const char *path, int file, glint_load *load, glint_error *error)
 {
-    int file;
-    TRY(glint_reader_run(path, &file, error));
-    const glint_status status = glint_document_open(file, &load->document, error);
-    (void)close(file);
-    TRY(status);
+    TRY(glint_document_open(file, &load->document, error));
     load->path = strdup(path);
     return load->path != NULL ? glint_find_folder(path, &load->folder, error)
                               : glint_fail_memory(error, "the scene");
@@ -67,11 +63,10 @@ static glint_status choose_variant(const char *name, glint_load *load, glint_err
     return GLINT_OK;
 }
 
-static glint_status open(const char *path, const glint_scene_options *options,
-                         glint_scene_source *source, glint_error *error)
+static glint_status prepare(const glint_scene_options *options, glint_scene_source *source,
+                            glint_error *error)
 {
     glint_load *load = &source->load;
-    TRY(read_document(path, load, error));
     TRY(choose_variant(options->variant, load, error));
     TRY(glint_primitives_open(&load->document, load->variant, &load->primitives, error));
     TRY(glint_skins_read(&load->document, &load->inverse_bind, error));
@@ -100,8 +95,9 @@ static glint_status name_failure(const char *path, glint_status status, const gl
                               : glint_fail(error, status, "%s: %s", path, cause->message);
 }
 
-glint_status glint_scene_open(const char *path, const glint_scene_options *options,
-                              glint_scene_source **source, glint_error *error)
+glint_status glint_scene_open_document(const char *path, int file,
+                                       const glint_scene_options *options,
+                                       glint_scene_source **source, glint_error *error)
 {
     static const glint_scene_options none;
     glint_error cause = {0};
@@ -111,13 +107,31 @@ glint_status glint_scene_open(const char *path, const glint_scene_options *optio
         return glint_fail(error, GLINT_OUT_OF_MEMORY, "%s: not enough memory for the scene", path);
     }
     made->load.tally = GLINT_TALLY_EMPTY;
-    const glint_status status = open(path, options != NULL ? options : &none, made, &cause);
+    glint_status status = open_document(path, file, &made->load, &cause);
+    if (status == GLINT_OK) {
+        status = prepare(options != NULL ? options : &none, made, &cause);
+    }
     if (status != GLINT_OK) {
         glint_scene_close(made);
         return name_failure(path, status, &cause, error);
     }
     *source = made;
     return GLINT_OK;
+}
+
+glint_status glint_scene_open(const char *path, const glint_scene_options *options,
+                              glint_scene_source **source, glint_error *error)
+{
+    glint_error cause = {0};
+    int file;
+    *source = NULL;
+    const glint_status status = glint_reader_run(path, &file, &cause);
+    if (status != GLINT_OK) {
+        return name_failure(path, status, &cause, error);
+    }
+    const glint_status opened = glint_scene_open_document(path, file, options, source, error);
+    (void)close(file);
+    return opened;
 }
 
 const glint_motion *glint_scene_motion(const glint_scene_source *source)

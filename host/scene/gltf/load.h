@@ -60,10 +60,24 @@ static inline const glint_document_node *glint_load_node(const glint_load *load,
     return &load->document.nodes[load->visits.all[visit].node];
 }
 
+// The primitives of a visited node's mesh; none if it has no mesh.
+static inline glint_run glint_load_primitives(const glint_load *load, size_t visit)
+{
+    static const glint_run none;
+    const int32_t mesh = glint_load_node(load, visit)->mesh;
+    return mesh < 0 ? none : load->document.meshes[mesh].primitives;
+}
+
 static inline const char *glint_load_text(const glint_load *load, glint_text text)
 {
     return glint_document_text(&load->document, text);
 }
+
+// Does what glint_scene_open does with the document in a memory file, which the caller keeps.
+// `path` is the scene's file, beside which its images lie.
+glint_status glint_scene_open_document(const char *path, int file,
+                                       const glint_scene_options *options,
+                                       glint_scene_source **source, glint_error *error);
 
 #ifdef __cplusplus
 }

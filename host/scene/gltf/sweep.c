@@ -117,7 +117,7 @@ static glint_status list_drawings(sweep_state *sweeper, glint_error *error)
         if (!visit->is_shown || node->mesh < 0) {
             continue;
         }
-        const glint_run primitives = load->document.meshes[node->mesh].primitives;
+        const glint_run primitives = glint_load_primitives(load, i);
         size_t drawable = 0, each = 0;
         for (uint32_t p = 0; p < primitives.count; p++) {
             const size_t own = load->primitives.all[primitives.first + p].triangles;
@@ -227,8 +227,7 @@ static glint_status grow(sweep_state *sweeper, motion_kind motion, glint_error *
         glint_shape *shapes;
         TRY(glint_poses_shapes(&sweeper->poses, sweeper->load->visits.all[drawing->visit].node,
                                &shapes, error));
-        const glint_document_node *node = glint_load_node(sweeper->load, drawing->visit);
-        const glint_run primitives = sweeper->load->document.meshes[node->mesh].primitives;
+        const glint_run primitives = glint_load_primitives(sweeper->load, drawing->visit);
         for (uint32_t p = 0; p < primitives.count; p++) {
             grow_by_primitive(sweeper, drawing, primitives.first + p,
                               shapes == NULL ? NULL : &shapes[p]);

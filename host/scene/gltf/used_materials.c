@@ -71,9 +71,7 @@ static void mark_used(glint_load *load)
 {
     const size_t count = load->document.materials_count;
     for (size_t i = 0; i < load->visits.count; i++) {
-        const glint_document_node *node = glint_load_node(load, i);
-        const glint_run primitives =
-            node->mesh < 0 ? (glint_run){0} : load->document.meshes[node->mesh].primitives;
+        const glint_run primitives = glint_load_primitives(load, i);
         for (uint32_t p = 0; p < primitives.count; p++) {
             const glint_primitive *primitive = &load->primitives.all[primitives.first + p];
             if (primitive->triangles > 0) {

@@ -125,9 +125,8 @@ static glint_status draw_primitive(glint_load *load, size_t index, glint_draw dr
 
 static glint_status draw_mesh(glint_load *load, size_t visit, glint_error *error)
 {
-    const glint_document_node *node = glint_load_node(load, visit);
     const int index = load->visits.all[visit].node;
-    const glint_run primitives = load->document.meshes[node->mesh].primitives;
+    const glint_run primitives = glint_load_primitives(load, visit);
     glint_shape *shapes;
     glint_instances instances;
     TRY(glint_poses_shapes(&load->poses, index, &shapes, error));
