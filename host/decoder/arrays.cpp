@@ -61,7 +61,7 @@ void write_sparse(const Model &model, std::size_t index, glint_document_array &a
 const unsigned char *view_data(const Model &model, std::size_t index)
 {
     const tinygltf::BufferView &view = model.bufferViews[index];
-    return model.bytes[static_cast<std::size_t>(view.buffer)].data + view.byteOffset;
+    return model.buffer(static_cast<std::size_t>(view.buffer)) + view.byteOffset;
 }
 
 std::int32_t Arrays::of(std::ptrdiff_t index)

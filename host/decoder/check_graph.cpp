@@ -200,6 +200,7 @@ void check_nodes(const json &root, Model &model)
 {
     const json &nodes = objects_of(root, "nodes");
     model.parents.assign(nodes.size(), -1);
+    model.nodes.reserve(nodes.size()); // they are large
     for (std::size_t i = 0; i < nodes.size(); i++) {
         Place place = (Place() / "nodes")[i];
         tinygltf::Node &node = model.nodes.emplace_back(check_node(root, nodes[i], place, model));

@@ -293,6 +293,7 @@ void check_storage(const json &root, Model &model)
     check_buffers(root);
     check_views(root, model);
     const json &accessors = objects_of(root, "accessors");
+    model.accessors.reserve(accessors.size()); // they are large
     for (std::size_t i = 0; i < accessors.size(); i++) {
         check_accessor(accessors[i], (Place() / "accessors")[i], model);
     }

@@ -46,6 +46,11 @@ class File
         return size_;
     }
 
+    int descriptor() const
+    {
+        return descriptor_;
+    }
+
     // Fills `bytes` from an offset. Returns false if the file ends before, or cannot be read.
     bool read(std::uint64_t offset, void *bytes, std::size_t count) const
     {
@@ -68,10 +73,15 @@ std::uint32_t little_endian(const unsigned char *bytes)
            static_cast<std::uint32_t>(bytes[2]) << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
 }
 
+[[noreturn]] void refuse_reading(std::uint64_t offset)
+{
+    throw refusal(at_byte(offset) + "the file could not be read (is it still being written?)");
+}
+
 void read_or_refuse(const File &file, std::uint64_t offset, void *bytes, std::size_t count)
 {
     if (!file.read(offset, bytes, count)) {
-        throw refusal(at_byte(offset) + "the file could not be read (is it still being written?)");
+        refuse_reading(offset);
     }
 }
 
@@ -201,8 +211,9 @@ void read_glb(const File &file, Writer &writer, Document &document)
         chunk = read_chunk(file, next, length);
         if (chunk.type == type_bin && !document.has_bin) {
             document.has_bin = true;
-            document.bin = writer.allocate(chunk.length);
-            read_or_refuse(file, chunk.offset, document.bin.data, chunk.length);
+            if (!writer.copy(file.descriptor(), chunk.offset, chunk.length, document.bin)) {
+                refuse_reading(chunk.offset);
+            }
         }
         next = chunk.offset + chunk.length;
     }
@@ -227,8 +238,8 @@ Stored read_external(Document &document, const std::string &uri, const Place &pl
                           " (the file is cut short, or another one)");
     }
     document.limits.add_file(length);
-    const Stored bytes = writer.allocate(length);
-    if (!file.read(0, bytes.data, bytes.size)) {
+    Stored bytes;
+    if (!writer.copy(file.descriptor(), 0, length, bytes)) {
         refuse(place, in_quotes(uri) + " could not be read (is it still being written?)");
     }
     return bytes;

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <csignal>
+#include <malloc.h>
 #include <new>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -28,6 +29,7 @@ void read(const char *path, int scene, int memory, Limits &limits, Asker &asker)
     limits.watch(writer.doing());
     Document document(asker, limits);
     Model model;
+    model.writer = &writer;
     read_document(path, scene, writer, document);
     check_document(document, model);
     read_buffers(document, writer, model);
@@ -35,6 +37,8 @@ void read(const char *path, int scene, int memory, Limits &limits, Asker &asker)
     decode_draco(limits, writer, model);
     settle_attributes(model);
     compose(document, model, writer);
+    // glint does not wait until the model's memory is free.
+    asker.tell(GLINT_OK, "");
 }
 
 // Calls `work` and tells glint how it ended.
@@ -43,7 +47,6 @@ void guard(const Limits &limits, Asker &asker, Work work)
 {
     try {
         work();
-        asker.tell(GLINT_OK, "");
     } catch (const refusal &refused) {
         asker.tell(GLINT_BAD_INPUT, refused.what());
     } catch (const shortage &lack) {
@@ -69,6 +72,14 @@ void guard(const Limits &limits, Asker &asker, Work work)
 
 } // namespace glint
 
+// Gives no memory back to the system: the process ends soon.
+static void keep_memory()
+{
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    mallopt(M_MMAP_THRESHOLD, 1 << 25);
+    mallopt(M_TOP_PAD, 1 << 20);
+}
+
 int main()
 {
     static glint_reader_packet start;
@@ -82,6 +93,7 @@ int main()
     }
     (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
     (void)std::signal(SIGXFSZ, SIG_IGN);
+    keep_memory();
     glint_sandbox_leave_no_core();
     glint::Limits limits(start.free_bytes);
     (void)glint_sandbox_enter(false);

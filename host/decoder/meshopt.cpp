@@ -268,7 +268,7 @@ void unpack_views(const Limits &limits, Writer &writer, Model &model)
     std::uint64_t unpacked = 0;
     for (std::size_t i = 0; i < model.packed.size(); i++) {
         const PackedView &one = model.packed[i];
-        check_packed_bytes(one, model.bytes[one.buffer].data + one.offset);
+        check_packed_bytes(one, model.buffer(one.buffer) + one.offset);
         std::vector<std::size_t> &same = views[{one.buffer, one.offset, one.length, one.stride,
                                                 one.count, one.mode, one.filter}];
         // No overflow: the first is limited, the second within most_bytes_each of a length; neither
@@ -280,7 +280,7 @@ void unpack_views(const Limits &limits, Writer &writer, Model &model)
     for (const auto &entry : views) {
         const PackedView &one = model.packed[entry.second[0]];
         const Stored bytes = writer.allocate(one.count * one.stride);
-        unpack(one, model.bytes[one.buffer].data + one.offset, bytes.data);
+        unpack(one, model.buffer(one.buffer) + one.offset, bytes.data);
         model.bytes.push_back(bytes);
         for (const std::size_t i : entry.second) {
             tinygltf::BufferView &view = model.bufferViews[model.packed[i].view];

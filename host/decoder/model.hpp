@@ -63,7 +63,8 @@ struct Model : tinygltf::Model {
     bool requires_draco = false;
     std::vector<DracoPrimitive> draco;
     std::set<std::size_t> filled_accessors; // accessors that Draco fills
-    std::vector<Stored> bytes;              // [buffer]; without data if it is not needed
+    mutable std::vector<Stored> bytes;      // [buffer]; without size if it is not needed
+    Writer *writer = nullptr;               // that has them
     // [buffer]: why it could not be read. Only images need such a buffer.
     std::vector<std::string> buffer_faults;
     std::vector<std::string> variants; // names of the file's material variants
@@ -76,6 +77,13 @@ struct Model : tinygltf::Model {
     // Warnings about a node, and about a primitive, {mesh, number}; given if they are shown.
     std::map<std::size_t, std::vector<std::string>> node_notes;
     std::map<std::pair<std::size_t, std::size_t>, std::vector<std::string>> notes;
+
+    // Returns the bytes of a buffer, mapped.
+    const unsigned char *buffer(std::size_t index) const
+    {
+        writer->map(bytes[index]);
+        return bytes[index].data;
+    }
 
     void note(std::pair<std::size_t, std::size_t> primitive, const std::string &text)
     {

@@ -21,6 +21,7 @@ namespace
 constexpr std::uint64_t chunk_least = std::uint64_t{1} << 16;
 constexpr std::uint64_t chunk_share = 16; // of the file
 constexpr std::uint64_t page_bytes = 4096;
+constexpr std::uint64_t copied_bytes = std::uint64_t{1} << 18; // at once
 // Bytes whose alignment is enough for a table's row and for a number of a file.
 constexpr std::uint64_t alignment = 16;
 
@@ -33,9 +34,9 @@ std::uint64_t round_up(std::uint64_t bytes, std::uint64_t to)
 
 Writer::Writer(int file) : file_(file)
 {
-    std::uint64_t begin = 0;
     texts.push_back('\0');
-    header_ = reinterpret_cast<glint_document_header *>(map(sizeof *header_, begin));
+    header_ =
+        reinterpret_cast<glint_document_header *>(map_at(extend(sizeof *header_), sizeof *header_));
 }
 
 Writer::~Writer()
@@ -45,13 +46,20 @@ Writer::~Writer()
     }
 }
 
-unsigned char *Writer::map(std::uint64_t bytes, std::uint64_t &offset)
+// Makes the file longer, by whole pages. Returns the offset of the new ones.
+std::uint64_t Writer::extend(std::uint64_t bytes)
 {
-    const std::uint64_t whole = round_up(bytes, page_bytes);
-    offset = end_;
-    if (ftruncate(file_, static_cast<off_t>(end_ + whole)) != 0) {
+    const std::uint64_t offset = end_;
+    end_ += round_up(bytes, page_bytes);
+    if (ftruncate(file_, static_cast<off_t>(end_)) != 0) {
         throw std::bad_alloc();
     }
+    return offset;
+}
+
+unsigned char *Writer::map_at(std::uint64_t offset, std::uint64_t bytes)
+{
+    const std::uint64_t whole = round_up(bytes, page_bytes);
     mappings_.reserve(mappings_.size() + 1);
     void *at =
         mmap(nullptr, whole, PROT_READ | PROT_WRITE, MAP_SHARED, file_, static_cast<off_t>(offset));
@@ -59,7 +67,6 @@ unsigned char *Writer::map(std::uint64_t bytes, std::uint64_t &offset)
         throw std::bad_alloc();
     }
     mappings_.push_back({at, whole});
-    end_ += whole;
     return static_cast<unsigned char *>(at);
 }
 
@@ -69,11 +76,13 @@ Stored Writer::allocate(std::uint64_t bytes)
     stored.size = bytes;
     const std::uint64_t chunk = std::max(chunk_least, end_ / chunk_share / page_bytes * page_bytes);
     if (bytes >= chunk / 4) {
-        stored.data = map(bytes, stored.offset);
+        stored.offset = extend(bytes);
+        stored.data = map_at(stored.offset, bytes);
         return stored;
     }
     if (chunk_.size < bytes) {
-        chunk_.data = map(chunk, chunk_.offset);
+        chunk_.offset = extend(chunk);
+        chunk_.data = map_at(chunk_.offset, chunk);
         chunk_.size = chunk;
     }
     stored.data = chunk_.data;
@@ -83,6 +92,33 @@ Stored Writer::allocate(std::uint64_t bytes)
     chunk_.offset += taken;
     chunk_.size -= taken;
     return stored;
+}
+
+bool Writer::copy(int file, std::uint64_t offset, std::uint64_t bytes, Stored &stored)
+{
+    if (bytes < chunk_least) {
+        stored = allocate(bytes);
+        return glint_read_all_at(file, offset, stored.data, bytes);
+    }
+    // Each page of a mapping costs a fault, twice as much as to copy it.
+    stored = {nullptr, bytes, extend(bytes)};
+    std::vector<unsigned char> piece(std::min(bytes, copied_bytes));
+    for (std::uint64_t done = 0; done < bytes; done += piece.size()) {
+        const auto count =
+            static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), bytes - done));
+        if (!glint_read_all_at(file, offset + done, piece.data(), count)) {
+            return false;
+        }
+        write(stored.offset + done, piece.data(), count);
+    }
+    return true;
+}
+
+void Writer::map(Stored &stored)
+{
+    if (stored.data == nullptr && stored.size > 0) {
+        stored.data = map_at(stored.offset, stored.size);
+    }
 }
 
 glint_text Writer::text(const std::string &text)

@@ -14,9 +14,9 @@
 namespace glint
 {
 
-// Bytes in the memory file.
+// Bytes in the memory file. Who wants to see them maps them (Writer::map).
 struct Stored {
-    unsigned char *data = nullptr;
+    unsigned char *data = nullptr;      // NULL: they are not mapped
     std::uint64_t size = 0, offset = 0; // in the file
 };
 
@@ -35,6 +35,13 @@ class Writer
 
     // Returns that many zeros, mapped as long as the writer lives. Throws std::bad_alloc.
     Stored allocate(std::uint64_t bytes);
+
+    // Copies bytes of another file, without mapping many. Returns false if the file ends before, or
+    // cannot be read. Throws std::bad_alloc.
+    bool copy(int file, std::uint64_t offset, std::uint64_t bytes, Stored &stored);
+
+    // Maps bytes that are not mapped yet. Throws std::bad_alloc.
+    void map(Stored &stored);
 
     glint_text text(const std::string &text);
 
@@ -77,7 +84,8 @@ class Writer
         void *at;
         std::size_t bytes;
     };
-    unsigned char *map(std::uint64_t bytes, std::uint64_t &offset);
+    std::uint64_t extend(std::uint64_t bytes);
+    unsigned char *map_at(std::uint64_t offset, std::uint64_t bytes);
     void write(std::uint64_t offset, const void *bytes, std::size_t count) const;
 
     int file_;

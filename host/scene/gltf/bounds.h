@@ -33,8 +33,9 @@ static inline void glint_bounds_grow(glint_bounds *bounds, glint_vec3 p)
 // Returns the largest extent.
 static inline double glint_bounds_width(const glint_bounds *bounds)
 {
-    return fmax(fmax(bounds->high.x - bounds->low.x, bounds->high.y - bounds->low.y),
-                bounds->high.z - bounds->low.z);
+    const double x = bounds->high.x - bounds->low.x, y = bounds->high.y - bounds->low.y;
+    const double z = bounds->high.z - bounds->low.z, larger = x > y ? x : y;
+    return larger > z ? larger : z;
 }
 
 #endif

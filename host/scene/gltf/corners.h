@@ -22,23 +22,23 @@ static inline bool glint_draw_winds_back(const glint_draw *draw, size_t t)
     return (glint_mat4_determinant3(&draw->to_world) < 0) != is_inside_out;
 }
 
+static inline glint_corner glint_draw_corner(const glint_draw *draw, size_t t, size_t c)
+{
+    const size_t vertex = glint_primitive_vertex(draw->primitive, t, c);
+    if (draw->shape != NULL) {
+        const size_t element = glint_shape_element(draw->shape, t, c);
+        return (glint_corner){vertex, element, draw->shape->positions[element]};
+    }
+    double p[3];
+    glint_array_numbers(&draw->primitive->positions, vertex, 3, p);
+    return (glint_corner){vertex, 0, {p[0], p[1], p[2]}};
+}
+
 static inline glint_corners glint_draw_corners(const glint_draw *draw, size_t t, bool winds_back)
 {
-    glint_corners corners = {0};
-    for (size_t c = 0; c < 3; c++) {
-        const size_t from = winds_back && c > 0 ? 3 - c : c;
-        glint_corner *corner = &corners.of[c];
-        corner->vertex = glint_primitive_vertex(draw->primitive, t, from);
-        if (draw->shape != NULL) {
-            corner->element = glint_shape_element(draw->shape, t, from);
-            corner->local = draw->shape->positions[corner->element];
-            continue;
-        }
-        double p[3];
-        glint_array_numbers(&draw->primitive->positions, corner->vertex, 3, p);
-        corner->local = (glint_vec3){p[0], p[1], p[2]};
-    }
-    return corners;
+    return (glint_corners){{glint_draw_corner(draw, t, 0),
+                            glint_draw_corner(draw, t, winds_back ? 2 : 1),
+                            glint_draw_corner(draw, t, winds_back ? 1 : 2)}};
 }
 
 static inline bool glint_corners_equal(glint_vec3 a, glint_vec3 b)

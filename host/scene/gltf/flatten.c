@@ -89,8 +89,9 @@ static void store_normals(const glint_draw *draw, const glint_corners *corners,
 static void grow(scene_writer *writer, const float *p)
 {
     for (int k = 0; k < 9; k++) {
-        writer->low[k % 3] = fminf(writer->low[k % 3], p[k]);
-        writer->high[k % 3] = fmaxf(writer->high[k % 3], p[k]);
+        float *low = &writer->low[k % 3], *high = &writer->high[k % 3];
+        *low = p[k] < *low ? p[k] : *low;
+        *high = p[k] > *high ? p[k] : *high;
     }
 }
 

@@ -53,7 +53,8 @@ static glint_status measure_triangle(const glint_draw *draw, const glint_corners
         glint_bounds_grow(&measures->bounds, p);
         glint_bounds_grow(&own, p);
     }
-    measures->smallest = fmin(measures->smallest, glint_bounds_width(&own));
+    const double width = glint_bounds_width(&own);
+    measures->smallest = width < measures->smallest ? width : measures->smallest;
     return GLINT_OK;
 }
 
