@@ -60,7 +60,8 @@ static void add_tetrahedron(heap *h, const double place[3], double size)
 static glint_parts parts_of(const heap *h)
 {
     glint_parts parts;
-    assert_int_equal(glint_parts_find(&h->corners[0][0][0], h->count, &parts, NULL), GLINT_OK);
+    const glint_exact_triangles exact = {&h->corners[0][0][0], 3 * h->count, NULL, h->count};
+    assert_int_equal(glint_parts_find(&exact, &parts, NULL), GLINT_OK);
     return parts;
 }
 

@@ -191,7 +191,9 @@ glint_status shape_end_with_parts(shape *s, double unit, glint_scene *scene, dou
     s->exact = NULL;
     glint_status status = shape_end_with_unit(s, unit, scene, error);
     if (status == GLINT_OK) {
-        status = glint_parts_find(own, scene->triangle_count, &scene->parts, error);
+        const glint_exact_triangles exact_triangles = {own, 3 * scene->triangle_count, NULL,
+                                                       scene->triangle_count};
+        status = glint_parts_find(&exact_triangles, &scene->parts, error);
         glint_scene_round_positions(scene);
     }
     if (status != GLINT_OK) {

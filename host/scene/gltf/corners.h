@@ -22,6 +22,14 @@ static inline bool glint_draw_winds_back(const glint_draw *draw, size_t t)
     return (glint_mat4_determinant3(&draw->to_world) < 0) != is_inside_out;
 }
 
+// A vertex as the file has it.
+static inline glint_corner glint_draw_vertex(const glint_draw *draw, size_t vertex)
+{
+    double p[3];
+    glint_array_numbers(&draw->primitive->positions, vertex, 3, p);
+    return (glint_corner){vertex, 0, {p[0], p[1], p[2]}};
+}
+
 static inline glint_corner glint_draw_corner(const glint_draw *draw, size_t t, size_t c)
 {
     const size_t vertex = glint_primitive_vertex(draw->primitive, t, c);
@@ -29,9 +37,7 @@ static inline glint_corner glint_draw_corner(const glint_draw *draw, size_t t, s
         const size_t element = glint_shape_element(draw->shape, t, c);
         return (glint_corner){vertex, element, draw->shape->positions[element]};
     }
-    double p[3];
-    glint_array_numbers(&draw->primitive->positions, vertex, 3, p);
-    return (glint_corner){vertex, 0, {p[0], p[1], p[2]}};
+    return glint_draw_vertex(draw, vertex);
 }
 
 static inline glint_corners glint_draw_corners(const glint_draw *draw, size_t t, bool winds_back)

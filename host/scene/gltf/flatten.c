@@ -185,32 +185,76 @@ static glint_status allocate(glint_scene *scene, size_t draws, size_t triangles,
     return is_whole ? GLINT_OK : glint_fail_memory(error, "the scene");
 }
 
+// The number of places that a draw's corners have: its vertices, or its corners if most vertices
+// belong to no triangle.
+static size_t count_places(const glint_draw *draw)
+{
+    const size_t vertices = draw->primitive->positions.count,
+                 triangles = draw->primitive->triangles;
+    return vertices / 3 > triangles ? 3 * triangles : vertices;
+}
+
+// All places and corners, as they are written.
+typedef struct exact_writer {
+    const glint_scene *scene;
+    double *places;
+    uint32_t *corners;
+    size_t place_count, corner_count;
+} exact_writer;
+
+static glint_corner corner_at_place(const glint_draw *draw, size_t place, bool is_per_corner)
+{
+    return is_per_corner         ? glint_draw_corner(draw, place / 3, place % 3)
+           : draw->shape != NULL ? (glint_corner){place, place, draw->shape->positions[place]}
+                                 : glint_draw_vertex(draw, place);
+}
+
+// Writes a draw's places, and the corners of its triangles that are not collapsed.
+static void write_exact(exact_writer *writer, const glint_draw *draw)
+{
+    const size_t base = writer->place_count, count = count_places(draw);
+    const bool is_per_corner = count != draw->primitive->positions.count;
+    for (size_t i = 0; i < count; i++) {
+        const glint_corner corner = corner_at_place(draw, i, is_per_corner);
+        const glint_vec3 p = stored_place(writer->scene, draw, corner.local);
+        double *place = writer->places + 3 * writer->place_count++;
+        place[0] = p.x;
+        place[1] = p.y;
+        place[2] = p.z;
+    }
+    for (size_t t = 0; t < draw->primitive->triangles; t++) {
+        const bool winds_back = glint_draw_winds_back(draw, t);
+        const glint_corners at = glint_draw_corners(draw, t, winds_back);
+        for (size_t c = 0; !glint_corners_are_collapsed(&at) && c < 3; c++) {
+            const size_t from = 3 * t + (winds_back && c > 0 ? 3 - c : c);
+            const size_t place = base + (is_per_corner ? from : at.of[c].vertex);
+            writer->corners[writer->corner_count++] = (uint32_t)place;
+        }
+    }
+}
+
 // Finds the parts of all triangles that are not collapsed. Triangles without area are dropped
 // later.
 static glint_status find_parts(const glint_load *load, size_t triangles, glint_scene *scene,
                                glint_error *error)
 {
-    double *exact = glint_allocate_unset(triangles, 9 * sizeof *exact), *next = exact;
-    if (exact == NULL) {
-        return glint_fail_memory(error, "the scene");
-    }
+    size_t places = 0;
     for (size_t i = 0; i < load->draw_count; i++) {
-        const glint_draw *draw = &load->draws[i];
-        for (size_t t = 0; t < draw->primitive->triangles; t++) {
-            const glint_corners corners =
-                glint_draw_corners(draw, t, glint_draw_winds_back(draw, t));
-            for (int c = 0; !glint_corners_are_collapsed(&corners) && c < 3; c++) {
-                const glint_vec3 p = stored_place(scene, draw, corners.of[c].local);
-                *next++ = p.x;
-                *next++ = p.y;
-                *next++ = p.z;
-            }
-        }
+        places += count_places(&load->draws[i]);
     }
-    const glint_status status =
-        glint_parts_find(exact, (size_t)(next - exact) / 9, &scene->parts, NULL);
-    free(exact);
-    return status == GLINT_OK ? GLINT_OK : glint_fail_memory(error, "the scene");
+    exact_writer writer = {.scene = scene,
+                           .places = glint_allocate_unset(places, 3 * sizeof(double)),
+                           .corners = glint_allocate_unset(triangles, 3 * sizeof(uint32_t))};
+    const bool has_room = writer.places != NULL && writer.corners != NULL;
+    for (size_t i = 0; has_room && i < load->draw_count; i++) {
+        write_exact(&writer, &load->draws[i]);
+    }
+    const glint_exact_triangles exact = {writer.places, writer.place_count, writer.corners,
+                                         writer.corner_count / 3};
+    const bool is_found = has_room && glint_parts_find(&exact, &scene->parts, NULL) == GLINT_OK;
+    free(writer.places);
+    free(writer.corners);
+    return is_found ? GLINT_OK : glint_fail_memory(error, "the scene");
 }
 
 // ---- All ----------------------------------------------------------------------------------------

@@ -44,7 +44,8 @@ static double now(void)
 // Other work may keep the cores busy, so the clock allows much more than the CPU time.
 static double seconds_for(uint64_t bytes)
 {
-    return 20 * (double)(bytes / (UINT64_C(4) << 20));
+    const double mib = (double)bytes / 0x1p20;
+    return 20 * mib / 4;
 }
 
 // Opens the file that a URI names. The decoder may ask for anything.

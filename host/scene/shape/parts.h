@@ -25,11 +25,18 @@ typedef struct glint_parts {
 // True if a scene may have small parts, by the width of its smallest triangle in stored units.
 bool glint_parts_may_be_there(double smallest_triangle);
 
-// Finds the parts of triangles, `exact` [count][3 corners][3] in stored coordinates. Triangles that
-// share edges form one part, also if only floats make their edges equal. All triangles of a part
-// use one anchor, so that no ray passes between them (watertight). On failure, and if no part is
-// small, *parts is zero. Errors: GLINT_OUT_OF_MEMORY.
-glint_status glint_parts_find(const double *exact, size_t count, glint_parts *parts,
+// Triangles with all digits; borrowed.
+typedef struct glint_exact_triangles {
+    const double *places;    // [vertex_count][3], stored coordinates
+    size_t vertex_count;     // vertices of different numbers may be at one place
+    const uint32_t *corners; // [count][3], the corners' vertices; NULL: corner i is vertex i
+    size_t count;
+} glint_exact_triangles;
+
+// Finds the parts of triangles. Triangles that share edges form one part, also if only floats make
+// their edges equal. All triangles of a part use one anchor, so that no ray passes between them
+// (watertight). On failure, and if no part is small, *parts is zero. Errors: GLINT_OUT_OF_MEMORY.
+glint_status glint_parts_find(const glint_exact_triangles *exact, glint_parts *parts,
                               glint_error *error);
 
 void glint_parts_free(glint_parts *parts);
