@@ -171,8 +171,6 @@ static glint_status allocate(glint_scene *scene, size_t draws, size_t triangles,
                              glint_error *error)
 {
     const size_t stride = glint_attributes_stride(&scene->attribute_set);
-    TRY(check_memory(triangles, glint_scene_bytes(triangles, with_normals, &scene->attribute_set),
-                     error));
     scene->positions = glint_allocate(triangles, 9 * sizeof(float));
     scene->normals = with_normals ? glint_allocate(triangles, 9 * sizeof(float)) : NULL;
     scene->attributes = stride > 0 ? glint_allocate(triangles, 3 * stride * sizeof(float)) : NULL;
@@ -310,11 +308,14 @@ glint_status glint_flatten(glint_load *load, glint_scene *scene, glint_error *er
     TRY(deform(load, with_normals, error));
     TRY(glint_frame_choose(load, scene, &smallest, error));
     scene->attribute_set = glint_attributes_needed(load);
-    TRY(allocate(scene, load->draw_count, triangles, with_normals, error));
+    TRY(check_memory(triangles, glint_scene_bytes(triangles, with_normals, &scene->attribute_set),
+                     error));
+    // Before the arrays take their memory.
     if (glint_parts_may_be_there(smallest) &&
         bytes_of_search * triangles <= glint_free_memory() / 2) {
         TRY(find_parts(load, triangles, scene, error));
     }
+    TRY(allocate(scene, load->draw_count, triangles, with_normals, error));
     scene_writer writer = {
         load, scene, 0, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     write_draws(&writer);
