@@ -295,9 +295,28 @@ static void parts_out_of_sight_are_not_said(void **state)
     glint_scene_free(&scene);
 }
 
+// A deformed primitive without a whole triangle has no place to look at.
+static void what_has_no_triangle_is_passed(void **state)
+{
+    static const float places[8][3] = {{-100, 0, 0},  {100, 0, 0},   {0, 100, 0},     {1, 1, 1},
+                                       {1.01F, 1, 1}, {1, 1.01F, 1}, {0.5F, 0.5F, 0}, {2, 0, 0}};
+    glint_scene scene = load_rest(
+        *state, places, sizeof places,
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":72},{\"buffer\":0,\"byteOffset\":72,"
+        "\"byteLength\":24}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":6,"
+        "\"type\":\"VEC3\"},{\"bufferView\":1,\"componentType\":5126,\"count\":2,\"type\":"
+        "\"VEC3\"}],\"meshes\":[{\"weights\":[1],\"primitives\":[{\"attributes\":{\"POSITION\":0},"
+        "\"targets\":[{\"POSITION\":0}]},{\"attributes\":{\"POSITION\":1},\"targets\":["
+        "{\"POSITION\":1}]}]}],\"nodes\":[{\"mesh\":0}]," ONE_SCENE);
+    assert_int_equal(scene.triangle_count, 2);
+    assert_true(scene.parts.count > 0);
+    glint_scene_free(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_has_no_triangle_is_passed),
         cmocka_unit_test(no_parts_without_need),
         cmocka_unit_test(small_parts_keep_their_digits),
         cmocka_unit_test(what_shares_an_edge_has_one_anchor),

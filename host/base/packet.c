@@ -40,7 +40,8 @@ ssize_t glint_packet_receive(int socket, void *packet, size_t bytes, int *files)
     struct msghdr message = {.msg_iov = &one,
                              .msg_iovlen = 1,
                              .msg_control = &control,
-                             .msg_controllen = sizeof control};
+                             // No room for more than can be handed on.
+                             .msg_controllen = CMSG_LEN(GLINT_PACKET_FILES_MAX * sizeof(int))};
     ssize_t length;
     do {
         length = recvmsg(socket, &message, MSG_CMSG_CLOEXEC);
@@ -48,7 +49,7 @@ ssize_t glint_packet_receive(int socket, void *packet, size_t bytes, int *files)
     for (size_t i = 0; i < GLINT_PACKET_FILES_MAX; i++) {
         files[i] = -1;
     }
-    const struct cmsghdr *rights = length > 0 ? CMSG_FIRSTHDR(&message) : NULL;
+    const struct cmsghdr *rights = length >= 0 ? CMSG_FIRSTHDR(&message) : NULL;
     if (rights != NULL && rights->cmsg_level == SOL_SOCKET && rights->cmsg_type == SCM_RIGHTS) {
         const size_t given = rights->cmsg_len - CMSG_LEN(0);
         const size_t most = GLINT_PACKET_FILES_MAX * sizeof(int);

@@ -13,7 +13,7 @@ extern "C" {
 #endif
 
 // Enters the sandbox for good. The process cannot start a process or program. It cannot open files
-// for writing, or make, move or remove them; without `may_open` it cannot open files at all. It
+// for writing, or make, move or remove them; without `may_open` it cannot open files by name. It
 // cannot connect, or reach other processes. Returns false if the system has no such filters; the
 // limits hold anyway.
 bool glint_sandbox_enter(bool may_open);

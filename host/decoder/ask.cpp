@@ -27,6 +27,9 @@ bool Asker::send() const
 int Asker::open(const std::string &uri)
 {
     begin(GLINT_READER_ASK);
+    if (uri.find('\0') != std::string::npos) {
+        throw refusal("names no file");
+    }
     if (uri.size() >= sizeof packet_.text) {
         throw refusal(std::string("cannot be opened: ") + std::strerror(ENAMETOOLONG) +
                       " (put the file beside the scene)");

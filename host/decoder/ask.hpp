@@ -2,7 +2,6 @@
 #ifndef GLINT_DECODER_ASK_HPP
 #define GLINT_DECODER_ASK_HPP
 
-#include "decoder/limits.hpp"
 #include "scene/gltf/reader_messages.h"
 
 #include <string>

@@ -1,5 +1,5 @@
 // Validates meshes, primitives, their attributes and indices in the raw JSON. The accessors'
-// contents are checked when they are read (primitive.cpp). See check.hpp.
+// contents are checked when they are read (scene/gltf/primitives.c). See check.hpp.
 #include "decoder/check.hpp"
 #include "decoder/check_morph.hpp"
 #include "decoder/check_storage.hpp"

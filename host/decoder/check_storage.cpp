@@ -62,23 +62,6 @@ void check_views(const json &root, Model &model)
     }
 }
 
-std::uint64_t component_size(std::uint64_t component_type)
-{
-    switch (component_type) {
-    case 5120:
-    case 5121:
-        return 1;
-    case 5122:
-    case 5123:
-        return 2;
-    case 5125:
-    case 5126:
-        return 4;
-    default:
-        return 0;
-    }
-}
-
 struct Type {
     const char *name;
     int code; // tinygltf's code
@@ -122,7 +105,7 @@ const Type &check_type(const json &accessor, const Place &place)
 // Columns of small matrices begin at multiples of four bytes.
 std::uint64_t element_size(const Type &type, std::uint64_t component)
 {
-    std::uint64_t size = component_size(component);
+    std::uint64_t size = glint_component_bytes(static_cast<std::int32_t>(component));
     if (type.code == TINYGLTF_TYPE_MAT2 || type.code == TINYGLTF_TYPE_MAT3) {
         std::uint64_t rows = type.code == TINYGLTF_TYPE_MAT2 ? 2 : 3;
         return rows * ((rows * size + 3) / 4 * 4);
@@ -133,7 +116,7 @@ std::uint64_t element_size(const Type &type, std::uint64_t component)
 std::uint64_t check_component_type(const json &object, const Place &place)
 {
     std::uint64_t component = whole_at(object, place, "componentType", 0, INT_MAX);
-    if (component_size(component) == 0) {
+    if (glint_component_bytes(static_cast<std::int32_t>(component)) == 0) {
         refuse(place / "componentType",
                std::to_string(component) +
                    " is none (5120 to 5123, 5125 or 5126: byte, unsigned byte, short, unsigned "
@@ -206,7 +189,7 @@ void check_sparse(const json &source, const Place &accessor_place, const Model &
         refuse(place / "indices" / "componentType", "not an unsigned integer (5121, 5123 or 5125)");
     }
     to_indices.componentType = static_cast<int>(component);
-    std::uint64_t width = component_size(component);
+    std::uint64_t width = glint_component_bytes(static_cast<std::int32_t>(component));
     auto offset = static_cast<std::uint64_t>(to_indices.byteOffset);
     check_range(model, view, place / "indices", {offset, count, width, width});
     const json &values = object_at(*sparse, place, "values");

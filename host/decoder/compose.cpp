@@ -10,6 +10,7 @@
 #include "scene/lights.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 namespace glint
@@ -253,7 +254,7 @@ void write_lights(const Model &model, Writer &writer)
                    : source.type == "point" ? GLINT_PUNCTUAL_POINT
                                             : GLINT_PUNCTUAL_DIRECTIONAL;
         for (std::size_t k = 0; row.kind >= 0 && k < 3; k++) {
-            row.color[k] = source.color[k] * source.intensity;
+            row.color[k] = std::min(source.color[k] * source.intensity, DBL_MAX);
         }
         row.range = source.range;
         row.inner_angle = source.spot.innerConeAngle;

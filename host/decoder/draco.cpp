@@ -283,10 +283,10 @@ std::uint64_t decode(const Model &model, Packed &packed, std::uint64_t room, Lim
         for (const Wanted &wanted : packed.wanted) {
             take_attribute(*mesh, place, wanted);
         }
-        limits.end_part();
+        limits.end_part(bytes / results_a_second);
         return bytes;
     } catch (const std::bad_alloc &) {
-        limits.end_part();
+        limits.end_part(0);
         if (most > limits.free_bytes()) {
             throw;
         }

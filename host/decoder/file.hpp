@@ -3,6 +3,7 @@
 #define GLINT_DECODER_FILE_HPP
 
 #include "decoder/ask.hpp"
+#include "decoder/limits.hpp"
 #include "decoder/uri.hpp"
 #include "decoder/writer.hpp"
 

@@ -91,37 +91,6 @@ static std::string described(const json &value)
     }
 }
 
-// Lists names for a message: 0 "main", 1, 2 "top" and so on, as many as fit.
-static std::string list_of(const std::vector<std::string> &names)
-{
-    std::string list;
-    constexpr std::size_t most = 20;
-    for (std::size_t i = 0; i < names.size() && i < most; i++) {
-        list += (i == 0 ? "" : ", ") + std::to_string(i) +
-                (names[i].empty() ? "" : " " + in_quotes(names[i]));
-    }
-    return list + (names.size() > most ? ", ..." : "");
-}
-
-std::size_t find_named(const std::vector<std::string> &names, const char *name, const char *noun)
-{
-    for (std::size_t i = 0; i < names.size(); i++) {
-        if (names[i] == name) {
-            return i;
-        }
-    }
-    // strtoul would also accept a sign and spaces.
-    char *end = nullptr;
-    unsigned long index = std::strtoul(name, &end, 10);
-    bool is_index = name[0] >= '0' && name[0] <= '9' && *end == '\0';
-    if (!is_index || index >= names.size()) {
-        throw refusal(
-            "there is no " + std::string(noun) + " " + in_quotes(name) +
-            (names.empty() ? " (the file has none)" : " (there is " + list_of(names) + ")"));
-    }
-    return index;
-}
-
 const json *member(const json &object, const char *key)
 {
     auto found = object.find(key);
@@ -206,18 +175,6 @@ const json *extension_of(const json &object, const Place &place, const char *nam
     const json *extensions = optional_object(object, place, "extensions");
     return extensions == nullptr ? nullptr
                                  : optional_object(*extensions, place / "extensions", name);
-}
-
-char *copy_text(const std::string &text)
-{
-    if (text.empty()) {
-        return nullptr;
-    }
-    char *copy = strdup(text.c_str());
-    if (copy == nullptr) {
-        throw std::bad_alloc();
-    }
-    return copy;
 }
 
 std::string text_of(const json &value, const Place &place)

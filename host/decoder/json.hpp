@@ -1,5 +1,5 @@
 // Reads unchecked JSON. A function that refuses a value names its place in the document. Refusals
-// are exceptions inside the loader; read.cpp turns them into a status.
+// are exceptions inside the loader; main.cpp turns them into a status.
 //
 // The rule (docs/formats.md): what may be left out is warned about, and the rest is drawn. What
 // would give a wrong or unsafe picture is refused. So who reads a part that may be left out (a
@@ -79,10 +79,6 @@ std::string in_quotes(const std::string &text);
 std::string shown(double value);
 std::string counted(std::size_t count, const char *noun);
 
-// Finds a thing by name among `names`, or else by index ("0"). Refuses an unknown name or index,
-// with a list of the known ones; `noun` is the word for such a thing.
-std::size_t find_named(const std::vector<std::string> &names, const char *name, const char *noun);
-
 // Returns a member; NULL if the object does not have it, or if it is null.
 const json *member(const json &object, const char *key);
 
@@ -106,9 +102,6 @@ const json *optional_object(const json &object, const Place &place, const char *
 // Returns an object's extension by name; NULL if it is missing. Refuses an extension that is no
 // object.
 const json *extension_of(const json &object, const Place &place, const char *name);
-
-// Returns a malloc'd copy; NULL for an empty text.
-char *copy_text(const std::string &text);
 
 std::string text_of(const json &value, const Place &place);
 std::string optional_text(const json &object, const Place &place, const char *key);

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace glint
@@ -41,6 +42,17 @@ void limit(__rlimit_resource resource, std::uint64_t value)
     }
 }
 
+// Sets the hard limit, too.
+void limit_for_good(__rlimit_resource resource, std::uint64_t value)
+{
+    struct rlimit both = {};
+    if (getrlimit(resource, &both) == 0) {
+        both.rlim_max = std::min<rlim_t>(value, both.rlim_max);
+        both.rlim_cur = std::min(both.rlim_cur, both.rlim_max);
+        (void)setrlimit(resource, &both);
+    }
+}
+
 std::uint64_t used_seconds()
 {
     struct rusage usage = {};
@@ -55,6 +67,14 @@ Limits::Limits(std::uint64_t free_bytes)
 {
     struct rlimit now = {};
     hard_ = getrlimit(RLIMIT_AS, &now) == 0 ? now.rlim_cur : RLIM_INFINITY;
+    // What a process that a file has taken over cannot lift.
+    const std::uint64_t used = used_bytes();
+    if (free_ < RLIM_INFINITY - used) {
+        limit_for_good(RLIMIT_FSIZE, free_);
+        if (limits_memory && used > 0) {
+            limit_for_good(RLIMIT_AS, used + free_);
+        }
+    }
 }
 
 Limits::~Limits()
@@ -109,17 +129,18 @@ void Limits::add_file(std::uint64_t bytes)
 void Limits::begin_part(const std::string &name, std::uint64_t memory_bytes,
                         std::uint64_t cpu_seconds)
 {
+    const std::uint64_t used = used_bytes();
     note(name, cpu_seconds);
-    if (limits_memory) {
-        limit(RLIMIT_AS, std::min({used_bytes() + memory_bytes, memory_, hard_}));
+    if (limits_memory && used > 0) {
+        limit(RLIMIT_AS, std::min(used + memory_bytes, hard_));
     }
-    limit(RLIMIT_CPU, std::min(used_seconds() + cpu_seconds, seconds_));
+    limit(RLIMIT_CPU, used_seconds() + cpu_seconds);
 }
 
-void Limits::end_part()
+void Limits::end_part(std::uint64_t more_seconds)
 {
+    seconds_ += more_seconds;
     note("", seconds_);
-    seconds_ = std::max(seconds_, used_seconds() + cpu_seconds_least);
     apply();
 }
 

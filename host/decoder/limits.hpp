@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <string>
-#include <sys/resource.h>
 
 struct glint_document_doing;
 
@@ -44,9 +43,11 @@ class Limits
     // Where the present work is noted, for a message if the process dies.
     void watch(glint_document_doing *doing);
 
-    // Limits the work on one part, until end_part. Work on a part that Draco packed may run wild.
+    // Limits the work on one part by these alone, until end_part. Work on a part that Draco packed
+    // may run wild.
     void begin_part(const std::string &name, std::uint64_t memory_bytes, std::uint64_t cpu_seconds);
-    void end_part();
+    // `more_seconds`: what the part adds to the time of the whole.
+    void end_part(std::uint64_t more_seconds);
 
   private:
     std::uint64_t used_bytes() const;

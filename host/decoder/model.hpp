@@ -1,5 +1,5 @@
-// The contents of a checked file, in tinygltf's types. After the checks the decoder reads only these,
-// and what it reads of materials, textures and animations, which may be left out in part.
+// The contents of a checked file, in tinygltf's types. After the checks the decoder reads only
+// these, and what it reads of materials, textures and animations, which may be left out in part.
 #ifndef GLINT_DECODER_MODEL_HPP
 #define GLINT_DECODER_MODEL_HPP
 

@@ -171,10 +171,11 @@ void find_image(const json &root, const Model &model, std::size_t index, Writer 
         row.offset = stored.offset;
         row.bytes = stored.size;
     } else if (uri != nullptr) {
-        row.uri = writer.text(text_of(*uri, place / "uri"));
-        if (row.uri == 0) {
+        const std::string name = text_of(*uri, place / "uri");
+        if (name.empty() || name.find('\0') != std::string::npos) {
             refuse(place, "names no file");
         }
+        row.uri = writer.text(name);
     } else if (view >= 0) {
         find_bytes(model, static_cast<std::size_t>(view), row);
     } else {

@@ -90,7 +90,7 @@ class Writer
 
     int file_;
     glint_document_header *header_; // mapped
-    std::uint64_t end_ = 0;         // of the file; a multiple of the size of a page
+    std::uint64_t end_ = 0;         // of the file; until finish() a multiple of the size of a page
     std::vector<Mapping> mappings_;
     Stored chunk_; // of what is small; its unused rest
     std::unordered_map<std::string, glint_text> known_;

@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 
 #include <errno.h>
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +25,8 @@ typedef enum kind {
     UNSIGNED, // the same, of unsigned integers
     RANGE,    // a whole number from `of` to `most`
     FLAG,     // a bool
-    FLOATS,   // `of` floats, none of them NaN
+    FLOATS,   // `of` floats from `low` to `high`
+    DOUBLES,  // the same, doubles
 } kind;
 
 typedef struct field_row {
@@ -33,31 +35,29 @@ typedef struct field_row {
     kind kind;
     size_t offset; // in a row
     int of, most;
-    size_t repeats, step; // how often it stands in a row, and the bytes between
+    size_t repeats, step; // how often it stands in a row (0: once), and the bytes between
+    double low, high;
 } field_row;
 
-#define FIELD(table, type, member, kind, of)                                                       \
+#define FIELD_ROW(table_, type, member, kind_, ...)                                                \
     {                                                                                              \
-#table "." #member, GLINT_TABLE_##table, kind, offsetof(type, member), of, 0, 1, 0         \
+        .name = #table_ "." #member, .table = GLINT_TABLE_##table_, .kind = (kind_),               \
+        .offset = offsetof(type, member), __VA_ARGS__                                              \
     }
-#define WITHIN(table, type, member, low, high)                                                     \
-    {                                                                                              \
-#table "." #member, GLINT_TABLE_##table, RANGE, offsetof(type, member), low, high, 1, 0    \
-    }
-#define SEVERAL(table, type, member, kind, of, count)                                              \
-    {                                                                                              \
-#table "." #member, GLINT_TABLE_##table, kind, offsetof(type, member), of, 0, count,       \
-            sizeof((type *)0)->member[0]                                                           \
-    }
-#define OF_TEXTURES(member, kind, of, most)                                                        \
-    {                                                                                              \
-        "materials.textures." #member, GLINT_TABLE_materials, kind,                                \
-            offsetof(glint_document_material, material) + offsetof(glint_material, textures) +     \
-                offsetof(glint_texture_use, member),                                               \
-            of, most, GLINT_TEXTURE_SLOTS, sizeof(glint_texture_use)                               \
-    }
-#define FLOATS_OF_MATERIAL(member, count)                                                          \
-    FIELD(materials, glint_document_material, material.member, FLOATS, count)
+#define FIELD(table, type, member, kind, of_) FIELD_ROW(table, type, member, kind, .of = (of_))
+#define WITHIN(table, type, member, least, most_)                                                  \
+    FIELD_ROW(table, type, member, RANGE, .of = (least), .most = (most_))
+#define SEVERAL(table, type, member, kind, of_, count)                                             \
+    FIELD_ROW(table, type, member, kind, .of = (of_), .repeats = (count),                          \
+              .step = sizeof((type *)0)->member[0])
+#define NUMBERS(table, type, member, kind, count, low_, high_)                                     \
+    FIELD_ROW(table, type, member, kind, .of = (count), .low = (low_), .high = (high_))
+#define FLOATS_OF_MATERIAL(member, count, low, high)                                               \
+    NUMBERS(materials, glint_document_material, material.member, FLOATS, count, low, high)
+#define OF_TEXTURES(member, kind, of_, most_)                                                      \
+    FIELD_ROW(materials, glint_document_material, material.textures[0].member, kind, .of = (of_),  \
+              .most = (most_), .repeats = GLINT_TEXTURE_SLOTS, .step = sizeof(glint_texture_use),  \
+              .low = -FLT_MAX, .high = FLT_MAX)
 
 static const field_row fields[] = {
     WITHIN(
@@ -66,6 +66,8 @@ static const field_row fields[] = {
         node_lists, struct { int32_t node; }, node, ROW, GLINT_TABLE_nodes),
     FIELD(
         joints, struct { int32_t node; }, node, ROW, GLINT_TABLE_nodes),
+    NUMBERS(
+        weights, struct { double weight; }, weight, DOUBLES, 1, -DBL_MAX, DBL_MAX),
     FIELD(notes, glint_document_note, where, TEXT, 0),
     FIELD(notes, glint_document_note, text, TEXT, 0),
     WITHIN(arrays, glint_document_array, components, 1, 16),
@@ -77,6 +79,10 @@ static const field_row fields[] = {
     FIELD(nodes, glint_document_node, camera, INDEX, GLINT_TABLE_cameras),
     FIELD(nodes, glint_document_node, skin, INDEX, GLINT_TABLE_skins),
     FIELD(nodes, glint_document_node, light, INDEX, GLINT_TABLE_lights),
+    NUMBERS(nodes, glint_document_node, matrix, DOUBLES, 16, -DBL_MAX, DBL_MAX),
+    NUMBERS(nodes, glint_document_node, translation, DOUBLES, 3, -DBL_MAX, DBL_MAX),
+    NUMBERS(nodes, glint_document_node, rotation, DOUBLES, 4, -DBL_MAX, DBL_MAX),
+    NUMBERS(nodes, glint_document_node, scale, DOUBLES, 3, -DBL_MAX, DBL_MAX),
     FIELD(nodes, glint_document_node, weights, RUN, GLINT_TABLE_weights),
     SEVERAL(nodes, glint_document_node, instances, ARRAY, 3, 3),
     FIELD(nodes, glint_document_node, instances[1], ARRAY, 4),
@@ -106,36 +112,36 @@ static const field_row fields[] = {
     SEVERAL(materials, glint_document_material, texture_keys, TEXT, 0, GLINT_TEXTURE_SLOTS),
     FIELD(materials, glint_document_material, missing, RUN, GLINT_TABLE_missing),
     FIELD(materials, glint_document_material, notes, RUN, GLINT_TABLE_notes),
-    FLOATS_OF_MATERIAL(base_color, 3),
-    FLOATS_OF_MATERIAL(metallic, 1),
-    FLOATS_OF_MATERIAL(roughness, 1),
-    FLOATS_OF_MATERIAL(emission, 3),
-    FLOATS_OF_MATERIAL(transmission, 1),
-    FLOATS_OF_MATERIAL(ior, 1),
-    FLOATS_OF_MATERIAL(thickness, 1),
-    FLOATS_OF_MATERIAL(attenuation_distance, 1),
-    FLOATS_OF_MATERIAL(attenuation_color, 3),
-    FLOATS_OF_MATERIAL(dispersion, 1),
-    FLOATS_OF_MATERIAL(specular, 1),
-    FLOATS_OF_MATERIAL(specular_color, 3),
-    FLOATS_OF_MATERIAL(clearcoat, 1),
-    FLOATS_OF_MATERIAL(clearcoat_roughness, 1),
-    FLOATS_OF_MATERIAL(iridescence, 1),
-    FLOATS_OF_MATERIAL(iridescence_ior, 1),
-    FLOATS_OF_MATERIAL(iridescence_thickness, 2),
-    FLOATS_OF_MATERIAL(anisotropy, 1),
-    FLOATS_OF_MATERIAL(anisotropy_rotation, 1),
-    FLOATS_OF_MATERIAL(sheen_color, 3),
-    FLOATS_OF_MATERIAL(sheen_roughness, 1),
-    FLOATS_OF_MATERIAL(diffuse_transmission, 1),
-    FLOATS_OF_MATERIAL(diffuse_transmission_color, 3),
-    FLOATS_OF_MATERIAL(mirror, 1),
-    FLOATS_OF_MATERIAL(priority, 1),
-    FLOATS_OF_MATERIAL(alpha, 1),
-    FLOATS_OF_MATERIAL(alpha_cutoff, 1),
-    FLOATS_OF_MATERIAL(normal_scale, 1),
-    FLOATS_OF_MATERIAL(clearcoat_normal_scale, 1),
-    FLOATS_OF_MATERIAL(occlusion_strength, 1),
+    FLOATS_OF_MATERIAL(base_color, 3, 0, 1),
+    FLOATS_OF_MATERIAL(metallic, 1, 0, 1),
+    FLOATS_OF_MATERIAL(roughness, 1, 0, 1),
+    FLOATS_OF_MATERIAL(emission, 3, 0, FLT_MAX),
+    FLOATS_OF_MATERIAL(transmission, 1, 0, 1),
+    FLOATS_OF_MATERIAL(ior, 1, 1, GLINT_IOR_INFINITE),
+    FLOATS_OF_MATERIAL(thickness, 1, 0, FLT_MAX),
+    FLOATS_OF_MATERIAL(attenuation_distance, 1, FLT_MIN, INFINITY),
+    FLOATS_OF_MATERIAL(attenuation_color, 3, 0, 1),
+    FLOATS_OF_MATERIAL(dispersion, 1, 0, FLT_MAX),
+    FLOATS_OF_MATERIAL(specular, 1, 0, 1),
+    FLOATS_OF_MATERIAL(specular_color, 3, 0, FLT_MAX),
+    FLOATS_OF_MATERIAL(clearcoat, 1, 0, 1),
+    FLOATS_OF_MATERIAL(clearcoat_roughness, 1, 0, 1),
+    FLOATS_OF_MATERIAL(iridescence, 1, 0, 1),
+    FLOATS_OF_MATERIAL(iridescence_ior, 1, 1, FLT_MAX),
+    FLOATS_OF_MATERIAL(iridescence_thickness, 2, 0, FLT_MAX),
+    FLOATS_OF_MATERIAL(anisotropy, 1, 0, 1),
+    FLOATS_OF_MATERIAL(anisotropy_rotation, 1, -FLT_MAX, FLT_MAX),
+    FLOATS_OF_MATERIAL(sheen_color, 3, 0, 1),
+    FLOATS_OF_MATERIAL(sheen_roughness, 1, 0, 1),
+    FLOATS_OF_MATERIAL(diffuse_transmission, 1, 0, 1),
+    FLOATS_OF_MATERIAL(diffuse_transmission_color, 3, 0, 1),
+    FLOATS_OF_MATERIAL(mirror, 1, -1, 1),
+    FLOATS_OF_MATERIAL(priority, 1, -1e6, 1e6),
+    FLOATS_OF_MATERIAL(alpha, 1, 0, 1),
+    FLOATS_OF_MATERIAL(alpha_cutoff, 1, 0, FLT_MAX),
+    FLOATS_OF_MATERIAL(normal_scale, 1, -FLT_MAX, FLT_MAX),
+    FLOATS_OF_MATERIAL(clearcoat_normal_scale, 1, -FLT_MAX, FLT_MAX),
+    FLOATS_OF_MATERIAL(occlusion_strength, 1, 0, 1),
     FIELD(materials, glint_document_material, material.unlit, FLAG, 0),
     FIELD(materials, glint_document_material, material.has_vertex_colors, FLAG, 0),
     WITHIN(materials, glint_document_material, material.alpha_mode, 0, GLINT_ALPHA_BLEND),
@@ -155,9 +161,14 @@ static const field_row fields[] = {
     FIELD(images, glint_document_image, uri, TEXT, 0),
     FIELD(images, glint_document_image, fault, TEXT, 0),
     FIELD(cameras, glint_document_camera, name, TEXT, 0),
+    NUMBERS(cameras, glint_document_camera, size, DOUBLES, 1, 0, DBL_MAX),
     FIELD(cameras, glint_document_camera, notes, RUN, GLINT_TABLE_notes),
     FIELD(lights, glint_document_light, name, TEXT, 0),
     WITHIN(lights, glint_document_light, kind, -1, GLINT_PUNCTUAL_DIRECTIONAL),
+    NUMBERS(lights, glint_document_light, color, DOUBLES, 3, 0, DBL_MAX),
+    NUMBERS(lights, glint_document_light, range, DOUBLES, 1, 0, DBL_MAX),
+    NUMBERS(lights, glint_document_light, inner_angle, DOUBLES, 1, 0, DBL_MAX),
+    NUMBERS(lights, glint_document_light, outer_angle, DOUBLES, 1, 0, DBL_MAX),
     FIELD(lights, glint_document_light, notes, RUN, GLINT_TABLE_notes),
     FIELD(skins, glint_document_skin, joints, RUN, GLINT_TABLE_joints),
     FIELD(skins, glint_document_skin, inverse_bind, ARRAY, 16),
@@ -213,12 +224,19 @@ static bool run_follows(check_state *checker, glint_run run, int table)
     return fits;
 }
 
-static bool has_no_nan(const unsigned char *at, int count)
+// False also for NaN.
+static bool numbers_are_within(const field_row *field, const unsigned char *at)
 {
-    for (int i = 0; i < count; i++) {
-        float value;
-        memcpy(&value, at + (size_t)i * sizeof value, sizeof value);
-        if (isnan(value)) {
+    for (int i = 0; i < field->of; i++) {
+        float single;
+        double value;
+        if (field->kind == FLOATS) {
+            memcpy(&single, at + (size_t)i * sizeof single, sizeof single);
+            value = (double)single;
+        } else {
+            memcpy(&value, at + (size_t)i * sizeof value, sizeof value);
+        }
+        if (!(value >= field->low && value <= field->high)) {
             return false;
         }
     }
@@ -252,7 +270,7 @@ static bool is_good(check_state *checker, const field_row *field, const unsigned
     case FLAG:
         return *at <= 1;
     default:
-        return has_no_nan(at, field->of);
+        return numbers_are_within(field, at);
     }
 }
 
@@ -272,7 +290,7 @@ static glint_status check_fields(check_state *checker, glint_error *error)
         for (size_t row = 0; row < place->count; row++) {
             const unsigned char *at = checker->document->block + place->offset +
                                       row * row_bytes[field->table] + field->offset;
-            for (size_t i = 0; i < field->repeats; i++) {
+            for (size_t i = 0; i == 0 || i < field->repeats; i++) {
                 if (!is_good(checker, field, at + i * field->step)) {
                     return refuse(field->name, row, error);
                 }
@@ -327,6 +345,7 @@ static bool sparse_fits(const glint_document *document, const glint_document_arr
 
 static glint_status check_arrays(const glint_document *document, glint_error *error)
 {
+    uint64_t sparse = 0; // elements of all arrays, limited so that checking them ends soon
     for (size_t i = 0; i < document->arrays_count; i++) {
         const glint_document_array *array = &document->arrays[i];
         const uint64_t size =
@@ -335,7 +354,8 @@ static glint_status check_arrays(const glint_document *document, glint_error *er
             (array->offset == 0 && array->count <= GLINT_ZEROS_MAX) ||
             (array->stride >= size &&
              range_fits(document, array->offset, array->count, size, array->stride));
-        if (size == 0 || array->count == 0 || !is_there ||
+        sparse += array->sparse_count;
+        if (sparse > document->bytes || size == 0 || array->count == 0 || !is_there ||
             (array->sparse_count > 0 && !sparse_fits(document, array, size))) {
             return refuse("arrays", i, error);
         }
@@ -482,7 +502,8 @@ static glint_status check_agreement(const glint_document *document, glint_error 
     }
     for (size_t i = 0; i < document->images_count; i++) {
         const glint_document_image *image = &document->images[i];
-        if (image->bytes > 0 && !range_fits(document, image->offset, image->bytes, 1, 1)) {
+        if (image->offset > document->bytes ||
+            (image->bytes > 0 && !range_fits(document, image->offset, image->bytes, 1, 1))) {
             return refuse("images", i, error);
         }
     }
@@ -539,11 +560,14 @@ static glint_status check(glint_document *document, glint_error *error)
     return check_agreement(document, error);
 }
 
+// So that sums over all draws do not overflow.
+static const off_t bytes_most = (off_t)1 << 40;
+
 glint_status glint_document_open(int file, glint_document *document, glint_error *error)
 {
     *document = (glint_document){0};
     struct stat facts;
-    if (fstat(file, &facts) != 0 || facts.st_size <= 0) {
+    if (fstat(file, &facts) != 0 || facts.st_size <= 0 || facts.st_size > bytes_most) {
         return refuse("header", 0, error);
     }
     void *block = mmap(NULL, (size_t)facts.st_size, PROT_READ, MAP_SHARED, file, 0);

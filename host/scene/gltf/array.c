@@ -27,7 +27,7 @@ static uint32_t load_index(glint_component_type type, const unsigned char *bytes
     }
 }
 
-uint32_t glint_sparse_index(const glint_sparse *sparse, size_t k)
+static uint32_t sparse_index(const glint_sparse *sparse, size_t k)
 {
     return load_index(sparse->index_type, sparse->indices, k);
 }
@@ -38,13 +38,13 @@ static const unsigned char *sparse_element(const glint_array *array, size_t i)
     size_t low = 0, high = array->sparse.count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        if (glint_sparse_index(&array->sparse, middle) < i) {
+        if (sparse_index(&array->sparse, middle) < i) {
             low = middle + 1;
         } else {
             high = middle;
         }
     }
-    const bool is_there = low < array->sparse.count && glint_sparse_index(&array->sparse, low) == i;
+    const bool is_there = low < array->sparse.count && sparse_index(&array->sparse, low) == i;
     return is_there ? array->sparse.elements + low * array->element_size : NULL;
 }
 
@@ -69,9 +69,11 @@ glint_array glint_array_open(const glint_document *document, int32_t index)
     array.element_size = glint_component_bytes(row->type) * (size_t)row->components;
     array.bytes = row->offset == 0 ? NULL : document->block + row->offset;
     array.stride = row->stride;
-    array.sparse = (glint_sparse){row->sparse_count, (glint_component_type)row->sparse_type,
-                                  document->block + row->sparse_indices,
-                                  document->block + row->sparse_elements};
+    if (row->sparse_count > 0) {
+        array.sparse = (glint_sparse){row->sparse_count, (glint_component_type)row->sparse_type,
+                                      document->block + row->sparse_indices,
+                                      document->block + row->sparse_elements};
+    }
     return array;
 }
 

@@ -42,9 +42,6 @@ uint32_t glint_component_largest(glint_component_type type);
 // Reads `n` components of element i as numbers.
 void glint_array_numbers(const glint_array *array, size_t i, size_t n, double *numbers);
 
-// Returns the index at which sparse element k stands.
-uint32_t glint_sparse_index(const glint_sparse *sparse, size_t k);
-
 #ifdef __cplusplus
 }
 #endif

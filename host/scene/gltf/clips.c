@@ -147,8 +147,7 @@ static glint_status read_channel(clip_reading *reading, size_t animation,
     reading->left -= bytes;
     curve.times = glint_allocate_unset(keys.input.count, sizeof(double));
     curve.values = glint_allocate_unset(values, sizeof(double));
-    glint_moves *moves = moves_of(reading->clips, channel->node);
-    if (curve.times == NULL || curve.values == NULL || moves == NULL) {
+    if (curve.times == NULL || curve.values == NULL) {
         free_curve(&curve);
         return glint_fail_memory(error, "the scene");
     }
@@ -157,6 +156,11 @@ static glint_status read_channel(clip_reading *reading, size_t animation,
     if (keys.fault != NULL) {
         free_curve(&curve);
         return GLINT_OK;
+    }
+    glint_moves *moves = moves_of(reading->clips, channel->node);
+    if (moves == NULL) {
+        free_curve(&curve);
+        return glint_fail_memory(error, "the scene");
     }
     const double last = curve.times[curve.key_count - 1];
     reading->clips->duration = fmax(reading->clips->duration, last);

@@ -1,4 +1,4 @@
-// Samples keyframes. See animation.h.
+// Samples keyframes. See curve.h.
 #include "scene/gltf/curve.h"
 
 #include <float.h>

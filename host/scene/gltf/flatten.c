@@ -189,7 +189,7 @@ static size_t count_places(const glint_draw *draw)
 {
     const size_t vertices = draw->primitive->positions.count,
                  triangles = draw->primitive->triangles;
-    return vertices / 3 > triangles ? 3 * triangles : vertices;
+    return triangles == 0 || vertices / 3 > triangles ? 3 * triangles : vertices;
 }
 
 // All places and corners, as they are written.

@@ -4,8 +4,6 @@
 #include "scene/gltf/notes.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 glint_status glint_light_add(glint_load *load, size_t visit, glint_scene *scene, glint_error *error)
 {
@@ -39,9 +37,9 @@ glint_status glint_light_add(glint_load *load, size_t visit, glint_scene *scene,
                         glint_name_place("nodes", (size_t)index, "", where));
         return GLINT_OK;
     }
-    const char *name = glint_load_text(load, node->name != 0 ? node->name : source->name);
-    light->name = name[0] == '\0' ? NULL : strdup(name);
+    bool is_short = false;
+    const glint_text name = node->name != 0 ? node->name : source->name;
+    light->name = glint_name_copy(glint_load_text(load, name), &is_short);
     scene->light_count++;
-    return light->name == NULL && name[0] != '\0' ? glint_fail_memory(error, "the scene")
-                                                  : GLINT_OK;
+    return is_short ? glint_fail_memory(error, "the scene") : GLINT_OK;
 }

@@ -149,14 +149,6 @@ void glint_scene_close(glint_scene_source *source)
 
 // ---- A time -------------------------------------------------------------------------------------
 
-// Returns a copy; NULL for an empty text, and if memory is short.
-static char *copy_text(const char *text, bool *is_short)
-{
-    char *copy = text[0] == '\0' ? NULL : strdup(text);
-    *is_short = *is_short || (copy == NULL && text[0] != '\0');
-    return copy;
-}
-
 // Stores the file's nodes, and the names of drawn nodes; the variants; the path.
 static glint_status name_all(const glint_load *load, glint_scene *scene, glint_error *error)
 {
@@ -170,7 +162,7 @@ static glint_status name_all(const glint_load *load, glint_scene *scene, glint_e
     for (size_t i = 0; i < document->nodes_count; i++) {
         const glint_document_node *node = &document->nodes[i];
         scene->nodes[i].parent = node->parent;
-        scene->nodes[i].name = copy_text(glint_load_text(load, node->name), &is_short);
+        scene->nodes[i].name = glint_name_copy(glint_load_text(load, node->name), &is_short);
         scene->node_count++;
     }
     for (size_t i = 0; i < scene->instance_count; i++) {
@@ -178,10 +170,10 @@ static glint_status name_all(const glint_load *load, glint_scene *scene, glint_e
     }
     for (size_t i = 0; i < document->variants_count; i++) {
         const char *name = glint_load_text(load, document->variants[i].name);
-        scene->variants[scene->variant_count++] = copy_text(name, &is_short);
+        scene->variants[scene->variant_count++] = glint_name_copy(name, &is_short);
     }
     scene->variant = load->variant + 1;
-    scene->path = copy_text(load->path, &is_short);
+    scene->path = glint_name_copy(load->path, &is_short);
     return is_short ? glint_fail_memory(error, "the scene") : GLINT_OK;
 }
 

@@ -20,6 +20,13 @@ const char *glint_quote(const char *text, char quoted[GLINT_QUOTED])
     return quoted;
 }
 
+char *glint_name_copy(const char *text, bool *is_short)
+{
+    char *copy = text[0] == '\0' ? NULL : strdup(text);
+    *is_short = *is_short || (copy == NULL && text[0] != '\0');
+    return copy;
+}
+
 const char *glint_name_place(const char *list, size_t index, const char *name,
                              char where[GLINT_WHERE])
 {

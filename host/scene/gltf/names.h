@@ -13,6 +13,9 @@ enum { GLINT_QUOTED = 72, GLINT_WHERE = 128 };
 // Writes a text in quotes, cut after a few dozen bytes, and returns `quoted`.
 const char *glint_quote(const char *text, char quoted[GLINT_QUOTED]);
 
+// Returns a malloc'd copy; NULL for an empty text. *is_short becomes true if memory is short.
+char *glint_name_copy(const char *text, bool *is_short);
+
 // Writes where an object stands, such as: nodes[3] "wheel". Returns `where`.
 const char *glint_name_place(const char *list, size_t index, const char *name,
                              char where[GLINT_WHERE]);

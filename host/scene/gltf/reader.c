@@ -16,11 +16,14 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
 #define PROGRAM "glint-decoder"
+#define GIB (UINT64_C(1) << 30)
+#define MEMORY_EACH 1024 // the most bytes of a document for each byte of a file: empty materials
 
 // A decoder at work.
 typedef struct decoding_state {
@@ -28,7 +31,9 @@ typedef struct decoding_state {
     pid_t process;
     int socket;      // −1: there is no decoder
     int memory;      // the memory file
-    double deadline; // seconds of the clock
+    double deadline; // seconds of the clock, at the latest `last`
+    double last;
+    uint64_t bytes; // of all files that it got
     glint_reader_packet packet;
 } decoding_state;
 
@@ -88,7 +93,7 @@ static bool receive_packet(decoding_state *decoding)
     const ssize_t length = ready > 0 ? glint_packet_receive(decoding->socket, &decoding->packet,
                                                             sizeof decoding->packet, files)
                                      : 0;
-    for (size_t i = 0; length > 0 && i < GLINT_PACKET_FILES_MAX; i++) {
+    for (size_t i = 0; ready > 0 && i < GLINT_PACKET_FILES_MAX; i++) {
         if (files[i] >= 0) {
             (void)close(files[i]);
         }
@@ -109,7 +114,8 @@ static bool give(decoding_state *decoding)
     begin_packet(decoding, GLINT_READER_GIVE);
     decoding->packet.status = open_uri(decoding, uri, &file, &bytes, &fault);
     (void)snprintf(decoding->packet.text, sizeof decoding->packet.text, "%s", fault.message);
-    decoding->deadline += seconds_for(bytes);
+    decoding->bytes += bytes;
+    decoding->deadline = fmin(decoding->deadline + seconds_for(bytes), decoding->last);
     const bool is_sent = send_packet(decoding, &file, file >= 0 ? 1 : 0);
     if (file >= 0) {
         (void)close(file);
@@ -209,6 +215,9 @@ static glint_status spawn(decoding_state *decoding, glint_error *error)
                           path, strerror(fault));
     }
     decoding->socket = ends[0];
+    // A decoder that does not read must not hold up glint.
+    const struct timeval patience = {.tv_sec = 60};
+    (void)setsockopt(ends[0], SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
     return GLINT_OK;
 }
 
@@ -238,6 +247,13 @@ static glint_status finish(decoding_state *decoding, glint_status status, glint_
     if (decoding->process > 0) {
         (void)glint_spawn_stop(decoding->process);
     }
+    struct stat facts;
+    if (status == GLINT_OK && (fstat(decoding->memory, &facts) != 0 ||
+                               (uint64_t)facts.st_size > GIB + MEMORY_EACH * decoding->bytes)) {
+        status = glint_fail(error, GLINT_BAD_INPUT,
+                            "the reader gave a document of %lld bytes (please report the file)",
+                            (long long)facts.st_size);
+    }
     if (status == GLINT_OK &&
         fcntl(decoding->memory, F_ADD_SEALS,
               F_SEAL_SEAL | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE) != 0) {
@@ -249,7 +265,7 @@ static glint_status finish(decoding_state *decoding, glint_status status, glint_
 
 glint_status glint_reader_run(const char *path, int *file, glint_error *error)
 {
-    static const double seconds_least = 20 * 60;
+    static const double seconds_least = 20 * 60, seconds_most = 24 * 3600;
     glint_error cause = {0};
     int scene;
     uint64_t bytes;
@@ -264,7 +280,9 @@ glint_status glint_reader_run(const char *path, int *file, glint_error *error)
         return glint_fail_memory(error, "the scene");
     }
     decoding->socket = decoding->memory = -1;
+    decoding->bytes = bytes;
     decoding->deadline = now() + seconds_least + seconds_for(bytes);
+    decoding->last = decoding->deadline + seconds_most;
     glint_status status = start(decoding, path, scene, error);
     if (status == GLINT_OK) {
         status = serve(decoding, error);

@@ -252,12 +252,12 @@ static void survey(glint_load *load, size_t i, bool loses_alpha)
 static glint_status give_material(glint_load *load, size_t i, glint_scene *scene,
                                   glint_error *error)
 {
-    const char *name = name_of(load, i);
+    bool is_short = false;
     glint_material *material = &scene->materials[scene->material_count];
     *material = load->materials[i].material;
-    material->name = name[0] == '\0' ? NULL : strdup(name);
+    material->name = glint_name_copy(name_of(load, i), &is_short);
     scene->material_count++;
-    if (material->name == NULL && name[0] != '\0') {
+    if (is_short) {
         return glint_fail_memory(error, "the scene");
     }
     survey(load, i, glint_coverage_is_lost(scene, load->images.textures, material, (uint32_t)i));

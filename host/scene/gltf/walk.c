@@ -16,14 +16,6 @@ static glint_status refuse_draws(glint_error *error)
                       "more than %zu primitives would be drawn (split the scene)", most_draws);
 }
 
-// Returns a copy; NULL for an empty text. *is_short: memory is short.
-static char *copy_text(const char *text, bool *is_short)
-{
-    char *copy = text[0] == '\0' ? NULL : strdup(text);
-    *is_short = *is_short || (copy == NULL && text[0] != '\0');
-    return copy;
-}
-
 // ---- Instances ----------------------------------------------------------------------------------
 
 glint_status glint_instances_find(const glint_load *load, int node, size_t drawn,
@@ -163,8 +155,8 @@ static glint_status add_camera(glint_load *load, size_t visit, glint_scene *scen
     camera.orthographic = source->is_orthographic != 0;
     *(camera.orthographic ? &camera.ymag : &camera.yfov) = source->size;
     bool is_short = false;
-    camera.name =
-        copy_text(glint_load_text(load, node->name != 0 ? node->name : source->name), &is_short);
+    camera.name = glint_name_copy(
+        glint_load_text(load, node->name != 0 ? node->name : source->name), &is_short);
     scene->cameras[scene->camera_count++] = camera;
     return is_short ? glint_fail_memory(error, "the scene") : GLINT_OK;
 }
