@@ -70,15 +70,15 @@ class Needs
 };
 
 // Refuses a buffer without bytes.
-void expect_bytes(const Document &document, std::size_t index)
+void expect_bytes(const SceneFile &input, std::size_t index)
 {
-    const json &buffer = objects_of(document.root, "buffers")[index];
+    const json &buffer = objects_of(input.root, "buffers")[index];
     const Place place = (Place() / "buffers")[index];
     if (is_fallback(buffer, place)) {
         refuse(place, "a fallback, but not only packed views refer to it (the file is damaged)");
     }
-    if (member(buffer, "uri") == nullptr && !(index == 0 && document.has_bin)) {
-        refuse(place / "uri", document.has_bin
+    if (member(buffer, "uri") == nullptr && !(index == 0 && input.has_bin)) {
+        refuse(place / "uri", input.has_bin
                                   ? "missing (only buffers[0] can be the BIN chunk)"
                                   : "missing (only a .glb with a BIN chunk can leave it out)");
     }
@@ -123,10 +123,10 @@ StandIns find_stand_ins(const json &buffers, const Needs &needs)
 
 } // namespace
 
-void read_buffers(Document &document, Writer &writer, Model &model)
+void read_buffers(SceneFile &input, Writer &writer, Model &model)
 {
-    const json &buffers = objects_of(document.root, "buffers");
-    const Needs needs(document.root, model);
+    const json &buffers = objects_of(input.root, "buffers");
+    const Needs needs(input.root, model);
     const StandIns longest = find_stand_ins(buffers, needs);
     std::vector<int> stand_in(buffers.size());
     for (std::size_t i = 0; i < buffers.size(); i++) {
@@ -141,8 +141,8 @@ void read_buffers(Document &document, Writer &writer, Model &model)
             continue;
         }
         try {
-            expect_bytes(document, i);
-            model.bytes[i] = read_buffer(document, i, writer);
+            expect_bytes(input, i);
+            model.bytes[i] = read_buffer(input, i, writer);
         } catch (const refusal &fault) {
             if (needs.of(i) == Need::shapes) {
                 throw;

@@ -64,22 +64,22 @@ void check_extensions(const json &root, Model &model)
 
 } // namespace
 
-void check_document(const Document &document, Model &model)
+void check_document(const SceneFile &input, Model &model)
 {
-    check_asset(document.root);
+    check_asset(input.root);
     // First of all, so that the other checks can rely on it.
     for (const char *key :
          {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials",
           "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
-        check_objects(document.root, key);
+        check_objects(input.root, key);
     }
-    check_extensions(document.root, model);
-    check_storage(document.root, model);
-    check_materials(document.root);
-    read_variants(document.root, model);
-    check_meshes(document.root, model);
+    check_extensions(input.root, model);
+    check_storage(input.root, model);
+    check_materials(input.root);
+    read_variants(input.root, model);
+    check_meshes(input.root, model);
     check_zeros(model);
-    check_graph(document.root, model);
+    check_graph(input.root, model);
 }
 
 } // namespace glint

@@ -11,7 +11,7 @@ namespace glint
 {
 
 // Checks all that shapes and places need: calls the other checks in turn. Reads no buffer.
-void check_document(const Document &document, Model &model);
+void check_document(const SceneFile &input, Model &model);
 
 // Checks meshes, and their primitives' attributes and indices.
 void check_meshes(const json &root, Model &model);

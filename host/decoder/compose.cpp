@@ -289,9 +289,9 @@ void write_usages(const json &root, Writer &writer)
 
 } // namespace
 
-void compose(const Document &document, const Model &model, Writer &writer)
+void compose(const SceneFile &input, const Model &model, Writer &writer)
 {
-    const json &root = document.root;
+    const json &root = input.root;
     Arrays arrays(model, writer);
     write_nodes(root, model, arrays, writer);
     write_scenes(root, model, writer);

@@ -9,7 +9,7 @@ namespace glint
 {
 
 // Writes all tables. The model's buffers are read, unpacked and decoded.
-void compose(const Document &document, const Model &model, Writer &writer);
+void compose(const SceneFile &input, const Model &model, Writer &writer);
 
 } // namespace glint
 

@@ -176,7 +176,7 @@ Chunk read_chunk(const File &file, std::uint64_t offset, std::uint64_t end)
     return chunk;
 }
 
-void read_glb(const File &file, Writer &writer, Document &document)
+void read_glb(const File &file, Writer &writer, SceneFile &input)
 {
     constexpr std::uint32_t type_json = 0x4E4F534A;
     constexpr std::uint32_t type_bin = 0x004E4942;
@@ -205,13 +205,13 @@ void read_glb(const File &file, Writer &writer, Document &document)
     }
     std::string text(chunk.length, '\0');
     read_or_refuse(file, chunk.offset, text.data(), text.size());
-    parse(text, chunk.offset, document.root);
+    parse(text, chunk.offset, input.root);
     // Skip chunks of unknown types, as the format requires.
     for (std::uint64_t next = chunk.offset + chunk.length; next < length;) {
         chunk = read_chunk(file, next, length);
-        if (chunk.type == type_bin && !document.has_bin) {
-            document.has_bin = true;
-            if (!writer.copy(file.descriptor(), chunk.offset, chunk.length, document.bin)) {
+        if (chunk.type == type_bin && !input.has_bin) {
+            input.has_bin = true;
+            if (!writer.copy(file.descriptor(), chunk.offset, chunk.length, input.bin)) {
                 refuse_reading(chunk.offset);
             }
         }
@@ -219,25 +219,25 @@ void read_glb(const File &file, Writer &writer, Document &document)
     }
 }
 
-int ask(Document &document, const std::string &uri, const Place &place)
+int ask(SceneFile &input, const std::string &uri, const Place &place)
 {
     try {
-        return document.asker.open(uri);
+        return input.asker.open(uri);
     } catch (const refusal &reason) {
         refuse(place, in_quotes(uri) + ": " + reason.what());
     }
 }
 
-Stored read_external(Document &document, const std::string &uri, const Place &place,
+Stored read_external(SceneFile &input, const std::string &uri, const Place &place,
                      std::uint64_t length, Writer &writer)
 {
-    const File file(ask(document, uri, place));
+    const File file(ask(input, uri, place));
     if (file.size() < length) {
         refuse(place, in_quotes(uri) + " has " + counted(file.size(), "byte") +
                           ", byteLength says " + std::to_string(length) +
                           " (the file is cut short, or another one)");
     }
-    document.limits.add_file(length);
+    input.limits.add_file(length);
     Stored bytes;
     if (!writer.copy(file.descriptor(), 0, length, bytes)) {
         refuse(place, in_quotes(uri) + " could not be read (is it still being written?)");
@@ -261,10 +261,10 @@ std::array<unsigned char, GLINT_FOREIGN_HEAD> read_head(const File &file, const 
 
 } // namespace
 
-void read_document(const char *path, int scene, Writer &writer, Document &document)
+void read_document(const char *path, int scene, Writer &writer, SceneFile &input)
 {
     const File file(scene);
-    document.limits.add_file(file.size());
+    input.limits.add_file(file.size());
     if (file.size() == 0) {
         throw refusal("byte 0: the file is empty (export it again)");
     }
@@ -273,7 +273,7 @@ void read_document(const char *path, int scene, Writer &writer, Document &docume
         throw refusal("the file has more than 4 GiB (put the data into .bin files beside it)");
     }
     if (std::memcmp(head.data(), "glTF", 4) == 0) {
-        read_glb(file, writer, document);
+        read_glb(file, writer, input);
         return;
     }
     if (file.size() > largest_json) {
@@ -281,28 +281,28 @@ void read_document(const char *path, int scene, Writer &writer, Document &docume
     }
     std::string text(static_cast<std::size_t>(file.size()), '\0');
     read_or_refuse(file, 0, text.data(), text.size());
-    parse(text, 0, document.root);
+    parse(text, 0, input.root);
 }
 
-Stored read_buffer(Document &document, std::size_t i, Writer &writer)
+Stored read_buffer(SceneFile &input, std::size_t i, Writer &writer)
 {
     Place place = (Place() / "buffers")[i];
-    json &buffer = document.root["buffers"][i];
+    json &buffer = input.root["buffers"][i];
     std::uint64_t length = whole_at(buffer, place, "byteLength", 1, largest_whole);
     auto found = buffer.find("uri");
     if (found == buffer.end()) {
-        if (document.bin.size < length) {
+        if (input.bin.size < length) {
             refuse(place / "byteLength", std::to_string(length) + " is more than the BIN chunk's " +
-                                             counted(document.bin.size, "byte") +
+                                             counted(input.bin.size, "byte") +
                                              " (the file is damaged)");
         }
-        Stored bytes = document.bin;
+        Stored bytes = input.bin;
         bytes.size = length;
         return bytes;
     }
     std::string uri = std::move(found->get_ref<std::string &>());
     if (!is_data_uri(uri)) {
-        return read_external(document, uri, place / "uri", length, writer);
+        return read_external(input, uri, place / "uri", length, writer);
     }
     const Bytes bytes = decode_data_uri(uri, place / "uri");
     if (bytes.size() < length) {

@@ -12,8 +12,9 @@
 namespace glint
 {
 
-struct Document {
-    Document(Asker &glint, Limits &limited) : asker(glint), limits(limited) {}
+// A scene's file, as it is read.
+struct SceneFile {
+    SceneFile(Asker &glint, Limits &limited) : asker(glint), limits(limited) {}
 
     Asker &asker;
     Limits &limits;
@@ -22,13 +23,13 @@ struct Document {
     Stored bin;
 };
 
-// Reads the file, which it closes, into `document.root` and `document.bin`. It must be a regular
+// Reads the file, which it closes, into `input.root` and `input.bin`. It must be a regular
 // file of at most 4 GiB; its JSON at most 1 GiB, nested at most 100 deep. `path` is its name.
-void read_document(const char *path, int scene, Writer &writer, Document &document);
+void read_document(const char *path, int scene, Writer &writer, SceneFile &input);
 
 // Returns the bytes of a buffer, cut to its byteLength, which must be checked. Removes a data URI's
 // text from the JSON, so that memory does not hold it twice.
-Stored read_buffer(Document &document, std::size_t index, Writer &writer);
+Stored read_buffer(SceneFile &input, std::size_t index, Writer &writer);
 
 } // namespace glint
 

@@ -1,5 +1,5 @@
-// Reads unchecked JSON. A function that refuses a value names its place in the document. Refusals
-// are exceptions inside the loader; main.cpp turns them into a status.
+// Reads unchecked JSON. A function that refuses a value names its place in the file. Refusals
+// are exceptions inside the decoder; main.cpp turns them into an answer.
 //
 // The rule (docs/formats.md): what may be left out is warned about, and the rest is drawn. What
 // would give a wrong or unsafe picture is refused. So who reads a part that may be left out (a
@@ -52,8 +52,8 @@ class shortage : public std::runtime_error
     using std::runtime_error::runtime_error;
 };
 
-// A place in the document, such as meshes[3].primitives[0].mode. It is cheap, so that the loader
-// can make one for every object; only a message composes its text. The keys must outlive it.
+// A place in the file, such as meshes[3].primitives[0].mode. It is cheap, so that the decoder can
+// make one for every object; only a message composes its text. The keys must outlive it.
 class Place
 {
   public:

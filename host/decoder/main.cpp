@@ -27,16 +27,16 @@ void read(const char *path, int scene, int memory, Limits &limits, Asker &asker)
 {
     Writer writer(memory);
     limits.watch(writer.doing());
-    Document document(asker, limits);
+    SceneFile input(asker, limits);
     Model model;
     model.writer = &writer;
-    read_document(path, scene, writer, document);
-    check_document(document, model);
-    read_buffers(document, writer, model);
+    read_document(path, scene, writer, input);
+    check_document(input, model);
+    read_buffers(input, writer, model);
     unpack_views(limits, writer, model);
     decode_draco(limits, writer, model);
     settle_attributes(model);
-    compose(document, model, writer);
+    compose(input, model, writer);
     // glint does not wait until the model's memory is free.
     asker.tell(GLINT_OK, "");
 }

@@ -51,8 +51,8 @@ struct DracoPrimitive {
     std::vector<std::pair<std::string, std::uint32_t>> attributes;
 };
 
-// The checks (check*.cpp) fill the model: each checked object gets the values that the loader
-// reads. So the loader cannot read an unchecked value. An index of −1 refers to nothing; an
+// The checks (check*.cpp) fill the model: each checked object gets the values that the decoder
+// writes. So it cannot write an unchecked value. An index of −1 refers to nothing; an
 // accessor whose bufferView is −1 holds zeros. For a valid file tinygltf's own loader gives the
 // same model. But it does not validate: it drops unreadable values, hides negative offsets, opens
 // files and follows references that are out of range.

@@ -1,6 +1,7 @@
 // Reads glTF files in another process: glint's side. See reader.h and reader_messages.h.
 #include "scene/gltf/reader.h"
 
+#include "base/clock.h"
 #include "base/free_memory.h"
 #include "scene/document.h"
 #include "scene/gltf/find_file.h"
@@ -18,7 +19,6 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #define PROGRAM "glint-decoder"
@@ -39,9 +39,7 @@ typedef struct decoding_state {
 
 static double now(void)
 {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+    return glint_now_ms() / 1e3;
 }
 
 // ---- Files --------------------------------------------------------------------------------------
