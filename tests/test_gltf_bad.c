@@ -261,7 +261,7 @@ static void what_is_no_regular_file_below_the_folder_is_refused(void **state)
     static const bad_case uris[] = {
         {"missing.bin", "\"missing.bin\": cannot be opened: No such file"},
         {"sub", "\"sub\": it is a folder"},
-        {"fifo", "\"fifo\": it is not a regular file"},
+        {"fifo", "\"fifo\": it is no regular file"},
         {"link", "\"link\": lies outside the scene's folder"},
         {"%2e%2e/%2E%2E/etc/hostname", "etc/hostname\": "},
         {"..\\\\..", "\"..\\..\": lies outside"},
@@ -284,7 +284,7 @@ static void what_is_no_regular_file_below_the_folder_is_refused(void **state)
         assert_refused(write_bytes(folder, "bad.gltf", text, (size_t)length), uris[i].said);
     }
     assert_refused(folder, "cannot be opened: it is a folder");
-    assert_refused("/dev/zero", "cannot be opened: it is not a regular file");
+    assert_refused("/dev/zero", "cannot be opened: it is no regular file");
     assert_refused(folder_path(folder, "none.gltf"), "cannot be opened: No such file");
 }
 

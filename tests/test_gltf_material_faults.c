@@ -217,7 +217,7 @@ static void no_uri_of_an_image_refuses_the_file(void **state)
         {"a%00.png", "names no file"},
         {".", "it is a folder"},
         {"sub", "it is a folder"},
-        {"fifo", "it is not a regular file"},
+        {"fifo", "it is no regular file"},
         {"/dev/zero", "lies outside the scene's folder"},
         {"/etc/hostname", "lies outside the scene's folder"},
         {"../..", "lies outside the scene's folder"},

@@ -26,11 +26,11 @@
 
 // Runs in a child, because a sandbox cannot be left. Returns the number of the first failed
 // attempt, or 0. Skips on systems without sandboxes.
-static int in_child(int (*attempt)(void))
+static int in_child(bool may_open, int (*attempt)(void))
 {
     const pid_t process = fork();
     if (process == 0) {
-        _exit(glint_sandbox_enter(true) ? attempt() : NO_SANDBOX);
+        _exit(glint_sandbox_enter(may_open) ? attempt() : NO_SANDBOX);
     }
     int how = 0;
     assert_int_equal(waitpid(process, &how, 0), process);
@@ -66,10 +66,24 @@ static int reach_out(void)
                                                                                     : 0;
 }
 
+static int open_files(void)
+{
+    return !is_refused(open("/dev/null", O_RDONLY))                     ? 1
+           : !is_refused(openat(AT_FDCWD, ".", O_RDONLY | O_DIRECTORY)) ? 2
+                                                                        : 0;
+}
+
+// The decoder of scenes opens none.
+static void no_file_can_be_opened(void **state)
+{
+    (void)state;
+    assert_int_equal(in_child(false, open_files), 0);
+}
+
 static void others_cannot_be_reached(void **state)
 {
     (void)state;
-    assert_int_equal(in_child(reach_out), 0);
+    assert_int_equal(in_child(true, reach_out), 0);
     assert_int_equal(access("/tmp/glint-escaped", F_OK), -1);
 }
 
@@ -93,7 +107,7 @@ static int work(void)
 static void work_goes_on(void **state)
 {
     (void)state;
-    assert_int_equal(in_child(work), 0);
+    assert_int_equal(in_child(true, work), 0);
 }
 
 static int keep_two(void)
@@ -115,7 +129,7 @@ static int keep_two(void)
 static void only_given_descriptors_stay_open(void **state)
 {
     (void)state;
-    assert_int_equal(in_child(keep_two), 0);
+    assert_int_equal(in_child(true, keep_two), 0);
 }
 
 static int use_memory(void)
@@ -136,7 +150,7 @@ static void memory_is_limited(void **state)
     print_message("skipped: AddressSanitizer reserves more memory than any limit\n");
     skip();
 #endif
-    assert_int_equal(in_child(use_memory), 0);
+    assert_int_equal(in_child(true, use_memory), 0);
 }
 
 static void time_is_limited(void **state)
@@ -159,6 +173,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(others_cannot_be_reached),
+        cmocka_unit_test(no_file_can_be_opened),
         cmocka_unit_test(work_goes_on),
         cmocka_unit_test(only_given_descriptors_stay_open),
         cmocka_unit_test(memory_is_limited),

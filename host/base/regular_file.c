@@ -7,40 +7,47 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static glint_status check(const char *path, int descriptor, uint64_t *size, glint_error *error)
+glint_status glint_regular_file_descriptor(const char *path, int *file, uint64_t *size,
+                                           glint_error *error)
 {
     struct stat facts;
-    if (fstat(descriptor, &facts) != 0) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (check the name)", path, strerror(errno));
+    // O_NONBLOCK: do not wait for a pipe's other end.
+    const int opened = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    *file = -1;
+    if (opened < 0) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s", strerror(errno));
     }
-    if (S_ISDIR(facts.st_mode)) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: is a folder (name a file)", path);
+    const char *trouble = fstat(opened, &facts) != 0 ? strerror(errno)
+                          : S_ISDIR(facts.st_mode)   ? "it is a folder, not a file"
+                          : !S_ISREG(facts.st_mode)  ? "it is no regular file"
+                                                     : NULL;
+    if (trouble != NULL) {
+        (void)close(opened);
+        return glint_fail(error, GLINT_BAD_INPUT, "%s", trouble);
     }
-    if (!S_ISREG(facts.st_mode)) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: is no regular file (name a file)", path);
-    }
-    if (size != NULL) {
-        *size = (uint64_t)facts.st_size;
-    }
+    *file = opened;
+    *size = (uint64_t)facts.st_size;
     return GLINT_OK;
 }
 
 glint_status glint_regular_file_open(const char *path, FILE **file, uint64_t *size,
                                      glint_error *error)
 {
+    glint_error reason = {0};
+    uint64_t bytes;
+    int descriptor;
     *file = NULL;
-    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    if (descriptor < 0) {
+    if (glint_regular_file_descriptor(path, &descriptor, &bytes, &reason) != GLINT_OK) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (check the name and its permissions)",
-                          path, strerror(errno));
+                          path, reason.message);
     }
-    glint_status status = check(path, descriptor, size, error);
-    if (status == GLINT_OK) {
-        *file = fdopen(descriptor, "rb");
-        status = *file != NULL ? GLINT_OK : glint_fail_memory(error, "a file");
-    }
+    *file = fdopen(descriptor, "rb");
     if (*file == NULL) {
-        close(descriptor);
+        (void)close(descriptor);
+        return glint_fail_memory(error, "a file");
     }
-    return status;
+    if (size != NULL) {
+        *size = bytes;
+    }
+    return GLINT_OK;
 }

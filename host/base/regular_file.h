@@ -16,6 +16,11 @@ extern "C" {
 glint_status glint_regular_file_open(const char *path, FILE **file, uint64_t *size,
                                      glint_error *error);
 
+// Does the same with a descriptor. Errors: GLINT_BAD_INPUT with the reason, without the path; *file
+// is then −1.
+glint_status glint_regular_file_descriptor(const char *path, int *file, uint64_t *size,
+                                           glint_error *error);
+
 #ifdef __cplusplus
 }
 #endif

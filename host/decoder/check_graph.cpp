@@ -252,10 +252,7 @@ double check_perspective(const json &camera, const Place &camera_place)
 {
     Place place = camera_place / "perspective";
     const json &lens = object_at(camera, camera_place, "perspective");
-    if (member(lens, "yfov") == nullptr) {
-        refuse(place / "yfov", "missing (glTF 2.0 requires it)");
-    }
-    double yfov = number_of(lens["yfov"], place / "yfov");
+    const double yfov = number_at(lens, place, "yfov");
     if (!(yfov > 0 && yfov < pi)) {
         refuse(place / "yfov", shown(yfov) + " is no vertical angle (radians, more than 0 and "
                                              "less than pi)");
@@ -267,10 +264,7 @@ double check_orthographic(const json &camera, const Place &camera_place)
 {
     Place place = camera_place / "orthographic";
     const json &lens = object_at(camera, camera_place, "orthographic");
-    if (member(lens, "ymag") == nullptr) {
-        refuse(place / "ymag", "missing (glTF 2.0 requires it)");
-    }
-    double ymag = number_of(lens["ymag"], place / "ymag");
+    const double ymag = number_at(lens, place, "ymag");
     if (ymag == 0) {
         refuse(place / "ymag", "0: the camera sees nothing (give half the height in metres)");
     }

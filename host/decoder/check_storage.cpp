@@ -27,11 +27,7 @@ void check_buffers(const json &root)
 tinygltf::BufferView check_view(const json &root, const json &view, const Place &place)
 {
     const json &buffers = objects_of(root, "buffers");
-    const json *index = member(view, "buffer");
-    if (index == nullptr) {
-        refuse(place / "buffer", "missing (glTF 2.0 requires it)");
-    }
-    std::size_t buffer = index_of(*index, place / "buffer", buffers.size(), "buffer");
+    const std::size_t buffer = index_at(view, place, "buffer", buffers.size(), "buffer");
     std::uint64_t length = whole_at(view, place, "byteLength", 1, largest_whole);
     std::uint64_t offset = optional_whole(view, place, "byteOffset", 0, largest_whole);
     std::uint64_t there = buffers[buffer]["byteLength"].get<std::uint64_t>();
@@ -88,11 +84,7 @@ const char *type_name(int code)
 
 const Type &check_type(const json &accessor, const Place &place)
 {
-    const json *value = member(accessor, "type");
-    if (value == nullptr) {
-        refuse(place / "type", "missing (glTF 2.0 requires it)");
-    }
-    std::string name = text_of(*value, place / "type");
+    const std::string name = text_at(accessor, place, "type");
     for (const Type &type : types) {
         if (name == type.name) {
             return type;
@@ -149,12 +141,8 @@ template <typename Part>
 std::size_t check_sparse_view(const json &part, const Place &place, const Model &model,
                               Part &result)
 {
-    const json *index = member(part, "bufferView");
-    if (index == nullptr) {
-        refuse(place / "bufferView", "missing (glTF 2.0 requires it)");
-    }
-    std::size_t view =
-        index_of(*index, place / "bufferView", model.bufferViews.size(), "bufferView");
+    const std::size_t view =
+        index_at(part, place, "bufferView", model.bufferViews.size(), "bufferView");
     if (model.bufferViews[view].byteStride != 0) {
         refuse(place / "bufferView", "bufferViews[" + std::to_string(view) +
                                          "] has a byteStride (sparse data is packed tightly)");

@@ -60,32 +60,19 @@ struct Sampler {
 
 // ---- Samplers -----------------------------------------------------------------------------------
 
-std::size_t accessor_of(const json &sampler, const Place &place, const char *key,
-                        const Model &model)
-{
-    const std::ptrdiff_t index =
-        optional_index(sampler, place, key, model.accessors.size(), "accessor");
-    if (index < 0) {
-        refuse(place / key, "missing (glTF 2.0 requires it)");
-    }
-    return static_cast<std::size_t>(index);
-}
-
 Sampler find_sampler(const Model &model, const json &animation, const Place &place,
                      const json &channel, const Place &channel_place)
 {
     const json &samplers = array_at(animation, place, "samplers");
-    const std::ptrdiff_t index =
-        optional_index(channel, channel_place, "sampler", samplers.size(), "sampler");
-    if (index < 0) {
-        refuse(channel_place / "sampler", "missing (glTF 2.0 requires it)");
-    }
-    const auto number = static_cast<std::size_t>(index);
+    const std::size_t number =
+        index_at(channel, channel_place, "sampler", samplers.size(), "sampler");
+    const std::size_t accessors = model.accessors.size();
     const Place at = (place / "samplers")[number];
     const json &source = samplers[number];
     expect_object(source, at);
-    return {number, at, interpolation_of(source, at), accessor_of(source, at, "input", model),
-            accessor_of(source, at, "output", model)};
+    return {number, at, interpolation_of(source, at),
+            index_at(source, at, "input", accessors, "accessor"),
+            index_at(source, at, "output", accessors, "accessor")};
 }
 
 // Checks the accessors' kinds and lengths.

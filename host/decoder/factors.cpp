@@ -15,7 +15,15 @@ struct Range {
     double low, high;
 };
 
-constexpr Range share = {0, 1}, positive = {0, FLT_MAX}, any = {-FLT_MAX, FLT_MAX};
+// The ranges of the factors, by their names.
+namespace range
+{
+#define FACTOR(member, numbers, least, most) constexpr Range member = {least, most};
+GLINT_MATERIAL_FACTORS(FACTOR)
+#undef FACTOR
+} // namespace range
+
+constexpr Range share = {0, 1};
 
 // Reads the numbers of an object.
 class Numbers
@@ -100,52 +108,58 @@ void read_ior(const Numbers &from, glint_material &result)
         result.dispersion = 0;
         return;
     }
-    result.ior = from.number("ior", {1, FLT_MAX}, 1.5);
+    result.ior = from.number("ior", range::ior, 1.5);
 }
 
 void read_clearcoat(const Numbers &from, glint_material &result)
 {
-    result.clearcoat = from.number("clearcoatFactor", share, 0);
-    result.clearcoat_roughness = from.number("clearcoatRoughnessFactor", share, 0);
-    result.clearcoat_normal_scale = from.of("clearcoatNormalTexture").number("scale", any, 1);
+    result.clearcoat = from.number("clearcoatFactor", range::clearcoat, 0);
+    result.clearcoat_roughness =
+        from.number("clearcoatRoughnessFactor", range::clearcoat_roughness, 0);
+    result.clearcoat_normal_scale =
+        from.of("clearcoatNormalTexture").number("scale", range::clearcoat_normal_scale, 1);
 }
 
 void read_anisotropy(const Numbers &from, glint_material &result)
 {
-    result.anisotropy = from.number("anisotropyStrength", share, 0);
-    result.anisotropy_rotation = from.number("anisotropyRotation", any, 0);
+    result.anisotropy = from.number("anisotropyStrength", range::anisotropy, 0);
+    result.anisotropy_rotation = from.number("anisotropyRotation", range::anisotropy_rotation, 0);
 }
 
 void read_sheen(const Numbers &from, glint_material &result)
 {
-    from.color("sheenColorFactor", 3, share, result.sheen_color);
-    result.sheen_roughness = from.number("sheenRoughnessFactor", share, 0);
+    from.color("sheenColorFactor", 3, range::sheen_color, result.sheen_color);
+    result.sheen_roughness = from.number("sheenRoughnessFactor", range::sheen_roughness, 0);
 }
 
 void read_specular(const Numbers &from, glint_material &result)
 {
-    result.specular = from.number("specularFactor", share, 1);
-    from.color("specularColorFactor", 3, positive, result.specular_color);
+    result.specular = from.number("specularFactor", range::specular, 1);
+    from.color("specularColorFactor", 3, range::specular_color, result.specular_color);
 }
 
 void read_diffuse_transmission(const Numbers &from, glint_material &result)
 {
-    result.diffuse_transmission = from.number("diffuseTransmissionFactor", share, 0);
-    from.color("diffuseTransmissionColorFactor", 3, share, result.diffuse_transmission_color);
+    result.diffuse_transmission =
+        from.number("diffuseTransmissionFactor", range::diffuse_transmission, 0);
+    from.color("diffuseTransmissionColorFactor", 3, range::diffuse_transmission_color,
+               result.diffuse_transmission_color);
 }
 
 void read_iridescence(const Numbers &from, glint_material &result)
 {
-    result.iridescence = from.number("iridescenceFactor", share, 0);
-    result.iridescence_ior = from.number("iridescenceIor", {1, FLT_MAX}, 1.3);
-    result.iridescence_thickness[0] = from.number("iridescenceThicknessMinimum", positive, 100);
-    result.iridescence_thickness[1] = from.number("iridescenceThicknessMaximum", positive, 400);
+    result.iridescence = from.number("iridescenceFactor", range::iridescence, 0);
+    result.iridescence_ior = from.number("iridescenceIor", range::iridescence_ior, 1.3);
+    result.iridescence_thickness[0] =
+        from.number("iridescenceThicknessMinimum", range::iridescence_thickness, 100);
+    result.iridescence_thickness[1] =
+        from.number("iridescenceThicknessMaximum", range::iridescence_thickness, 400);
 }
 
 void read_volume(const Numbers &from, glint_material &result)
 {
-    result.thickness = from.number("thicknessFactor", positive, 0);
-    from.color("attenuationColor", 3, share, result.attenuation_color);
+    result.thickness = from.number("thicknessFactor", range::thickness, 0);
+    from.color("attenuationColor", 3, range::attenuation_color, result.attenuation_color);
     const json *distance = member(from.object(), "attenuationDistance");
     if (distance == nullptr) { // or null: JSON cannot store infinity
         return;
@@ -206,13 +220,14 @@ void read_extensions(const Numbers &material, glint_material &result)
 {
     const Numbers extensions = material.of("extensions");
     auto has = [&](const char *name) { return member(extensions.object(), name) != nullptr; };
-    result.transmission =
-        extensions.of("KHR_materials_transmission").number("transmissionFactor", share, 0);
+    result.transmission = extensions.of("KHR_materials_transmission")
+                              .number("transmissionFactor", range::transmission, 0);
     if (has(specular_glossiness)) {
         read_specular_glossiness(extensions.of(specular_glossiness), result);
     }
     read_volume(extensions.of("KHR_materials_volume"), result);
-    result.dispersion = extensions.of("KHR_materials_dispersion").number("dispersion", positive, 0);
+    result.dispersion =
+        extensions.of("KHR_materials_dispersion").number("dispersion", range::dispersion, 0);
     read_ior(extensions.of("KHR_materials_ior"), result);
     read_specular(extensions.of("KHR_materials_specular"), result);
     read_clearcoat(extensions.of("KHR_materials_clearcoat"), result);
@@ -220,8 +235,8 @@ void read_extensions(const Numbers &material, glint_material &result)
     read_sheen(extensions.of("KHR_materials_sheen"), result);
     read_diffuse_transmission(extensions.of("KHR_materials_diffuse_transmission"), result);
     read_iridescence(extensions.of("KHR_materials_iridescence"), result);
-    const float strength =
-        extensions.of("KHR_materials_emissive_strength").number("emissiveStrength", positive, 1);
+    const float strength = extensions.of("KHR_materials_emissive_strength")
+                               .number("emissiveStrength", range::emission, 1);
     for (float &component : result.emission) {
         component = std::min(component * strength, FLT_MAX);
     }
@@ -240,7 +255,7 @@ void read_extras(const Numbers &material, glint_material &result)
     const Numbers ours = material.of("extras").of("glint");
     result.mirror = member(ours.object(), "mirror") == nullptr ? result.mirror
                                                                : ours.number("mirror", share, 0);
-    result.priority = ours.number("priority", {-1000000, 1000000}, 0);
+    result.priority = ours.number("priority", range::priority, 0);
 }
 
 // Reads alphaMode and its related values.
@@ -253,7 +268,7 @@ void read_alpha(const Numbers &from, glint_material &result)
     result.alpha_mode = mode == "MASK"    ? GLINT_ALPHA_MASK
                         : mode == "BLEND" ? GLINT_ALPHA_BLEND
                                           : GLINT_ALPHA_OPAQUE;
-    result.alpha_cutoff = from.number("alphaCutoff", positive, 0.5);
+    result.alpha_cutoff = from.number("alphaCutoff", range::alpha_cutoff, 0.5);
 }
 
 } // namespace
@@ -267,13 +282,14 @@ glint_material read_factors_at(const json &object, const Place &place, std::vect
     metal.color("baseColorFactor", 4, share, rgba);
     std::copy(rgba, rgba + 3, result.base_color);
     result.alpha = rgba[3];
-    result.metallic = metal.number("metallicFactor", share, 1);
-    result.roughness = metal.number("roughnessFactor", share, 1);
+    result.metallic = metal.number("metallicFactor", range::metallic, 1);
+    result.roughness = metal.number("roughnessFactor", range::roughness, 1);
     // Older exporters wrote bright lamps without KHR_materials_emissive_strength.
-    material.color("emissiveFactor", 3, positive, result.emission);
+    material.color("emissiveFactor", 3, range::emission, result.emission);
     read_alpha(material, result);
-    result.normal_scale = material.of("normalTexture").number("scale", any, 1);
-    result.occlusion_strength = material.of("occlusionTexture").number("strength", share, 1);
+    result.normal_scale = material.of("normalTexture").number("scale", range::normal_scale, 1);
+    result.occlusion_strength =
+        material.of("occlusionTexture").number("strength", range::occlusion_strength, 1);
     read_extensions(material, result);
     read_extras(material, result);
     return result;

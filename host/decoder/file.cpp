@@ -30,7 +30,7 @@ class File
         struct stat facts = {};
         if (fstat(descriptor_, &facts) != 0 || !S_ISREG(facts.st_mode)) {
             close(descriptor_);
-            throw refusal("it is not a regular file");
+            throw refusal("it is no regular file");
         }
         size_ = static_cast<std::uint64_t>(facts.st_size);
     }

@@ -273,4 +273,20 @@ double number_of(const json &value, const Place &place)
     return number;
 }
 
+std::size_t index_at(const json &object, const Place &place, const char *key, std::size_t count,
+                     const char *noun)
+{
+    return index_of(required(object, place, key), place / key, count, noun);
+}
+
+double number_at(const json &object, const Place &place, const char *key)
+{
+    return number_of(required(object, place, key), place / key);
+}
+
+std::string text_at(const json &object, const Place &place, const char *key)
+{
+    return text_of(required(object, place, key), place / key);
+}
+
 } // namespace glint

@@ -86,6 +86,12 @@ const json *member(const json &object, const char *key);
 const json &object_at(const json &object, const Place &place, const char *key);
 const json &array_at(const json &object, const Place &place, const char *key);
 
+// Return a required index into an array of `count` things, and a required finite number.
+std::size_t index_at(const json &object, const Place &place, const char *key, std::size_t count,
+                     const char *noun);
+double number_at(const json &object, const Place &place, const char *key);
+std::string text_at(const json &object, const Place &place, const char *key);
+
 // Refuses a value that is not an object.
 void expect_object(const json &value, const Place &place);
 

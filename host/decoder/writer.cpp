@@ -42,7 +42,7 @@ Writer::Writer(int file) : file_(file)
 Writer::~Writer()
 {
     for (const Mapping &mapping : mappings_) {
-        munmap(mapping.at, mapping.bytes);
+        (void)munmap(mapping.at, mapping.bytes); // of none: EINVAL, and nothing happens
     }
 }
 
@@ -60,13 +60,13 @@ std::uint64_t Writer::extend(std::uint64_t bytes)
 unsigned char *Writer::map_at(std::uint64_t offset, std::uint64_t bytes)
 {
     const std::uint64_t whole = round_up(bytes, page_bytes);
-    mappings_.reserve(mappings_.size() + 1);
+    Mapping &mapping = mappings_.emplace_back(Mapping{nullptr, 0}); // may throw
     void *at =
         mmap(nullptr, whole, PROT_READ | PROT_WRITE, MAP_SHARED, file_, static_cast<off_t>(offset));
     if (at == MAP_FAILED) {
         throw std::bad_alloc();
     }
-    mappings_.push_back({at, whole});
+    mapping = {at, whole};
     return static_cast<unsigned char *>(at);
 }
 

@@ -44,6 +44,10 @@ typedef struct field_row {
         .name = #table_ "." #member, .table = GLINT_TABLE_##table_, .kind = (kind_),               \
         .offset = offsetof(type, member), __VA_ARGS__                                              \
     }
+#define WHOLE_ROW(table_, kind_, ...)                                                              \
+    {                                                                                              \
+        .name = #table_, .table = GLINT_TABLE_##table_, .kind = (kind_), __VA_ARGS__               \
+    }
 #define FIELD(table, type, member, kind, of_) FIELD_ROW(table, type, member, kind, .of = (of_))
 #define WITHIN(table, type, member, least, most_)                                                  \
     FIELD_ROW(table, type, member, RANGE, .of = (least), .most = (most_))
@@ -53,21 +57,16 @@ typedef struct field_row {
 #define NUMBERS(table, type, member, kind, count, low_, high_)                                     \
     FIELD_ROW(table, type, member, kind, .of = (count), .low = (low_), .high = (high_))
 #define FLOATS_OF_MATERIAL(member, count, low, high)                                               \
-    NUMBERS(materials, glint_document_material, material.member, FLOATS, count, low, high)
+    NUMBERS(materials, glint_document_material, material.member, FLOATS, count, low, high),
 #define OF_TEXTURES(member, kind, of_, most_)                                                      \
     FIELD_ROW(materials, glint_document_material, material.textures[0].member, kind, .of = (of_),  \
               .most = (most_), .repeats = GLINT_TEXTURE_SLOTS, .step = sizeof(glint_texture_use),  \
               .low = -FLT_MAX, .high = FLT_MAX)
 
 static const field_row fields[] = {
-    WITHIN(
-        node_lists, struct { int32_t node; }, node, 0, INT32_MAX),
-    FIELD(
-        node_lists, struct { int32_t node; }, node, ROW, GLINT_TABLE_nodes),
-    FIELD(
-        joints, struct { int32_t node; }, node, ROW, GLINT_TABLE_nodes),
-    NUMBERS(
-        weights, struct { double weight; }, weight, DOUBLES, 1, -DBL_MAX, DBL_MAX),
+    WHOLE_ROW(node_lists, ROW, .of = GLINT_TABLE_nodes),
+    WHOLE_ROW(joints, ROW, .of = GLINT_TABLE_nodes),
+    WHOLE_ROW(weights, DOUBLES, .of = 1, .low = -DBL_MAX, .high = DBL_MAX),
     FIELD(notes, glint_document_note, where, TEXT, 0),
     FIELD(notes, glint_document_note, text, TEXT, 0),
     WITHIN(arrays, glint_document_array, components, 1, 16),
@@ -112,37 +111,8 @@ static const field_row fields[] = {
     SEVERAL(materials, glint_document_material, texture_keys, TEXT, 0, GLINT_TEXTURE_SLOTS),
     FIELD(materials, glint_document_material, missing, RUN, GLINT_TABLE_missing),
     FIELD(materials, glint_document_material, notes, RUN, GLINT_TABLE_notes),
-    FLOATS_OF_MATERIAL(base_color, 3, 0, 1),
-    FLOATS_OF_MATERIAL(metallic, 1, 0, 1),
-    FLOATS_OF_MATERIAL(roughness, 1, 0, 1),
-    FLOATS_OF_MATERIAL(emission, 3, 0, FLT_MAX),
-    FLOATS_OF_MATERIAL(transmission, 1, 0, 1),
-    FLOATS_OF_MATERIAL(ior, 1, 1, GLINT_IOR_INFINITE),
-    FLOATS_OF_MATERIAL(thickness, 1, 0, FLT_MAX),
-    FLOATS_OF_MATERIAL(attenuation_distance, 1, FLT_MIN, INFINITY),
-    FLOATS_OF_MATERIAL(attenuation_color, 3, 0, 1),
-    FLOATS_OF_MATERIAL(dispersion, 1, 0, FLT_MAX),
-    FLOATS_OF_MATERIAL(specular, 1, 0, 1),
-    FLOATS_OF_MATERIAL(specular_color, 3, 0, FLT_MAX),
-    FLOATS_OF_MATERIAL(clearcoat, 1, 0, 1),
-    FLOATS_OF_MATERIAL(clearcoat_roughness, 1, 0, 1),
-    FLOATS_OF_MATERIAL(iridescence, 1, 0, 1),
-    FLOATS_OF_MATERIAL(iridescence_ior, 1, 1, FLT_MAX),
-    FLOATS_OF_MATERIAL(iridescence_thickness, 2, 0, FLT_MAX),
-    FLOATS_OF_MATERIAL(anisotropy, 1, 0, 1),
-    FLOATS_OF_MATERIAL(anisotropy_rotation, 1, -FLT_MAX, FLT_MAX),
-    FLOATS_OF_MATERIAL(sheen_color, 3, 0, 1),
-    FLOATS_OF_MATERIAL(sheen_roughness, 1, 0, 1),
-    FLOATS_OF_MATERIAL(diffuse_transmission, 1, 0, 1),
-    FLOATS_OF_MATERIAL(diffuse_transmission_color, 3, 0, 1),
-    FLOATS_OF_MATERIAL(mirror, 1, -1, 1),
-    FLOATS_OF_MATERIAL(priority, 1, -1e6, 1e6),
-    FLOATS_OF_MATERIAL(alpha, 1, 0, 1),
-    FLOATS_OF_MATERIAL(alpha_cutoff, 1, 0, FLT_MAX),
-    FLOATS_OF_MATERIAL(normal_scale, 1, -FLT_MAX, FLT_MAX),
-    FLOATS_OF_MATERIAL(clearcoat_normal_scale, 1, -FLT_MAX, FLT_MAX),
-    FLOATS_OF_MATERIAL(occlusion_strength, 1, 0, 1),
-    FIELD(materials, glint_document_material, material.unlit, FLAG, 0),
+    GLINT_MATERIAL_FACTORS(FLOATS_OF_MATERIAL)
+        FIELD(materials, glint_document_material, material.unlit, FLAG, 0),
     FIELD(materials, glint_document_material, material.has_vertex_colors, FLAG, 0),
     WITHIN(materials, glint_document_material, material.alpha_mode, 0, GLINT_ALPHA_BLEND),
     OF_TEXTURES(image, AFTER, GLINT_TABLE_images, 0),
@@ -276,9 +246,9 @@ static bool is_good(check_state *checker, const field_row *field, const unsigned
 
 static glint_status refuse(const char *what, size_t row, glint_error *error)
 {
-    return glint_fail(error, GLINT_BAD_INPUT,
-                      "the reader gave a damaged document: %s of row %zu (please report the file)",
-                      what, row);
+    return glint_fail(
+        error, GLINT_BAD_INPUT,
+        "glint-decoder gave a damaged document: %s of row %zu (please report the file)", what, row);
 }
 
 static glint_status check_fields(check_state *checker, glint_error *error)
@@ -370,7 +340,7 @@ static glint_status check_tree(const glint_document *document, glint_error *erro
     const size_t count = document->nodes_count;
     size_t children = 0, with_parents = 0, rooted = 0;
     int32_t *way = calloc(count + 1, sizeof *way);
-    char *is_met = calloc(count + 1, 1); // met as a child; then: leads to a root
+    char *is_met = calloc(count + 1, 1); // as a child
     glint_status status =
         way == NULL || is_met == NULL ? glint_fail_memory(error, "the scene") : GLINT_OK;
     for (size_t i = 0; status == GLINT_OK && i < count; i++) {

@@ -1,8 +1,8 @@
-// The contents of a glTF file, as the reader (host/decoder/) gives them to glint: one block of
+// The contents of a glTF file, as glint-decoder (host/decoder/) gives them to glint: one block of
 // memory that holds tables of fixed rows. Rows refer to other rows by their index, and to bytes by
 // their offset in the block, so that the block has no address of its own.
 //
-// Angles are radians, lengths metres, times seconds. An index of −1 refers to nothing. The reader
+// Angles are radians, lengths metres, times seconds. An index of −1 refers to nothing. The decoder
 // has checked what the file says, and worded what is left out. But it may misbehave in any way:
 // glint_document_open checks every index and offset before anything reads them.
 #ifndef GLINT_SCENE_DOCUMENT_H
@@ -240,7 +240,7 @@ typedef struct glint_document_place {
     uint64_t offset, count; // of a table: bytes from the block's beginning, and rows
 } glint_document_place;
 
-// What the reader works on, for a message if it dies.
+// What the decoder works on, for a message if it dies.
 typedef struct glint_document_doing {
     char name[128];   // of a part, such as bufferViews[3]; empty: the whole file
     uint32_t seconds; // of CPU time that it may take

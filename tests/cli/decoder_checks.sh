@@ -27,10 +27,10 @@ refuses 3 'xxx: the decoder failed on it: it is damaged or unusual' info scene/i
 OTHER_DECODER=hangs
 refuses 3 'scene/it.gltf: the decoder failed on it' info scene/it.gltf
 OTHER_DECODER=empty
-refuses 3 'the reader gave a damaged document' info scene/it.gltf
+refuses 3 'glint-decoder gave a damaged document' info scene/it.gltf
 OTHER_DECODER=asks
 outside="0 lies outside the scene's folder (put the file beside the scene, or below); "
-refuses 3 "it.gltf: ${outside}${outside}0 it is not a regular file; 0 it is a folder, not a file; $outside" \
+refuses 3 "it.gltf: ${outside}${outside}0 it is no regular file; 0 it is a folder, not a file; $outside" \
     info scene/it.gltf
 unset OTHER_DECODER
 rm "$decoder"

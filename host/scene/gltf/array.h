@@ -6,10 +6,6 @@
 
 #include <stdbool.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Elements that stand in for some of an array's own.
 typedef struct glint_sparse {
     size_t count;                    // 0: none
@@ -41,9 +37,5 @@ uint32_t glint_component_largest(glint_component_type type);
 
 // Reads `n` components of element i as numbers.
 void glint_array_numbers(const glint_array *array, size_t i, size_t n, double *numbers);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

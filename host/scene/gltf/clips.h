@@ -6,10 +6,6 @@
 #include "scene/gltf/curve.h"
 #include "scene/gltf/tally.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // The curves of a node's properties. Without keys a property does not move.
 typedef struct glint_moves {
     glint_curve of[GLINT_PROPERTIES];
@@ -33,9 +29,5 @@ glint_status glint_clips_read(const glint_document *document, const char *name, 
 const glint_curve *glint_clips_curve(const glint_clips *clips, int node, glint_property property);
 
 void glint_clips_free(glint_clips *clips);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

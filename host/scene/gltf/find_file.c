@@ -1,14 +1,14 @@
 // Finds the files that a glTF file refers to. See find_file.h.
 #include "scene/gltf/find_file.h"
 
+#include "base/regular_file.h"
+
 #include <ctype.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <limits.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 static int hexadecimal(char c)
@@ -100,33 +100,11 @@ static bool is_below(const char *path, const char *folder)
     return strncmp(path, folder, length) == 0 && (path[length] == '/' || path[length] == '\0');
 }
 
-glint_status glint_find_open(const char *path, int *file, uint64_t *bytes, glint_error *error)
-{
-    struct stat facts;
-    // O_NONBLOCK: do not wait for a pipe's other end.
-    const int opened = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    *file = -1;
-    if (opened < 0) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s", strerror(errno));
-    }
-    const char *trouble = fstat(opened, &facts) != 0 ? strerror(errno)
-                          : S_ISDIR(facts.st_mode)   ? "it is a folder, not a file"
-                          : !S_ISREG(facts.st_mode)  ? "it is not a regular file"
-                                                     : NULL;
-    if (trouble != NULL) {
-        (void)close(opened);
-        return glint_fail(error, GLINT_BAD_INPUT, "%s", trouble);
-    }
-    *file = opened;
-    *bytes = (uint64_t)facts.st_size;
-    return GLINT_OK;
-}
-
 static glint_status check_regular(const char *path, glint_error *error)
 {
     int file;
     uint64_t bytes;
-    TRY(glint_find_open(path, &file, &bytes, error));
+    TRY(glint_regular_file_descriptor(path, &file, &bytes, error));
     (void)close(file);
     return GLINT_OK;
 }

@@ -5,7 +5,6 @@
 #include "base/status.h"
 
 #include <stddef.h>
-#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -24,10 +23,6 @@ glint_status glint_find_folder(const char *file, char **folder, glint_error *err
 // name also as it stands, and with backslashes as slashes. *path is malloc'd. Errors:
 // GLINT_BAD_INPUT with the reason, without the URI; GLINT_OUT_OF_MEMORY.
 glint_status glint_find_file(const char *folder, const char *uri, char **path, glint_error *error);
-
-// Opens a regular file for reading; a pipe or a device would hang. The caller closes *file. Errors:
-// GLINT_BAD_INPUT with the reason, without the path.
-glint_status glint_find_open(const char *path, int *file, uint64_t *bytes, glint_error *error);
 
 #ifdef __cplusplus
 }

@@ -6,10 +6,6 @@
 #include "base/vector.h"
 #include "scene/gltf/array.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // A set of four joints and weights per vertex; a primitive may have several sets.
 typedef struct glint_influences {
     glint_array joints, weights;
@@ -51,9 +47,5 @@ glint_weighting glint_joints_blend(const glint_influence_sets *from, size_t vert
 // primitive's place in the file.
 glint_status glint_joints_refuse(const glint_influence_sets *from, size_t vertex,
                                  size_t joint_count, const char *primitive, glint_error *error);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

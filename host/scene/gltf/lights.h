@@ -4,17 +4,9 @@
 
 #include "scene/gltf/load.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Adds the light of a visited node to the scene, which has room for it. Leaves out, with a warning,
 // a light that shines nowhere or cannot be shown. Fails with GLINT_OUT_OF_MEMORY.
 glint_status glint_light_add(glint_load *load, size_t visit, glint_scene *scene,
                              glint_error *error);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -11,10 +11,6 @@
 #include "scene/material/material_override.h"
 #include "scene/scene.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // A material of the file, or glTF's default material.
 typedef struct glint_used_material {
     glint_material material; // without a name
@@ -78,9 +74,5 @@ static inline const char *glint_load_text(const glint_load *load, glint_text tex
 glint_status glint_scene_open_document(const char *path, int file,
                                        const glint_scene_options *options,
                                        glint_scene_source **source, glint_error *error);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

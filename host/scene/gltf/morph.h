@@ -4,10 +4,6 @@
 
 #include "scene/gltf/array.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // The attributes that targets move: vectors of three components.
 typedef enum glint_morph_attribute {
     GLINT_MORPH_POSITION,
@@ -43,9 +39,5 @@ void glint_morph_add(const glint_morph *morph, glint_morph_attribute attribute, 
                      double *components);
 
 void glint_morph_free(glint_morph *morph);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

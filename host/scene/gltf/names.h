@@ -4,10 +4,6 @@
 
 #include "scene/document.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { GLINT_QUOTED = 72, GLINT_WHERE = 128 };
 
 // Writes a text in quotes, cut after a few dozen bytes, and returns `quoted`.
@@ -35,9 +31,5 @@ typedef struct glint_named_rows {
 // Finds a row by name, or else by index ("0"). Errors: GLINT_BAD_INPUT, with a list of the rows.
 glint_status glint_name_find(const glint_named_rows *table, const char *wanted, size_t *found,
                              glint_error *error);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -50,7 +50,7 @@ static glint_mat4 local_matrix(const glint_document *document, const glint_clips
     if (node->has_matrix != 0) {
         glint_mat4 result = glint_mat4_identity;
         for (int i = 0; i < 16; i++) {
-            // The reader allowed rounding in the last row; the exact row avoids any projection.
+            // The decoder allowed rounding in the last row; the exact row avoids any projection.
             result.m[i % 4][i / 4] = i % 4 < 3 ? node->matrix[i] : result.m[i % 4][i / 4];
         }
         return result;

@@ -5,10 +5,6 @@
 #include "base/vector.h"
 #include "scene/gltf/clips.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // A node of the chosen scene, or a node of a tree that only joints of its skins need.
 typedef struct glint_visit {
     int node;
@@ -44,9 +40,5 @@ glint_mat4 glint_matrix_of_parts(const double translation[3], const double rotat
 // before it.
 glint_mat4 glint_visit_place(const glint_visits *visits, size_t visit, double time,
                              const glint_mat4 *placed);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

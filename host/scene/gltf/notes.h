@@ -6,10 +6,6 @@
 #include "scene/gltf/names.h"
 #include "scene/gltf/tally.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // `where` is the object's place, for notes that name none.
 static inline void glint_notes_tally(const glint_document *document, glint_run notes,
                                      const char *where, glint_tally *tally)
@@ -28,9 +24,5 @@ static inline const char *glint_node_place(const glint_document *document, int n
     return glint_name_place("nodes", (size_t)node,
                             glint_document_text(document, document->nodes[node].name), where);
 }
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -6,10 +6,6 @@
 #include "scene/gltf/primitives.h"
 #include "scene/gltf/shape.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // A skin's joints at one time.
 typedef struct glint_skin_pose {
     glint_bones bones; // none if no visited node uses the skin
@@ -77,9 +73,5 @@ void glint_poses_free(glint_poses *poses);
 // GLINT_OUT_OF_MEMORY.
 glint_status glint_skins_read(const glint_document *document, glint_mat4 **inverse_bind,
                               glint_error *error);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -7,10 +7,6 @@
 
 #include <stdio.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // glTF's modes of primitives.
 typedef enum glint_mode {
     GLINT_MODE_POINTS = 0, // 1 to 3 are lines
@@ -57,9 +53,5 @@ static inline size_t glint_primitive_vertex(const glint_primitive *primitive, si
     }
     return primitive->indices.count > 0 ? glint_array_index(&primitive->indices, i) : i;
 }
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

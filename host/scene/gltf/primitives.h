@@ -5,10 +5,6 @@
 
 #include "scene/gltf/primitive.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Zero is valid: none.
 typedef struct glint_primitives {
     glint_primitive *all; // in the order of the document; owned, as are the next two
@@ -22,9 +18,5 @@ glint_status glint_primitives_open(const glint_document *document, int variant,
                                    glint_primitives *primitives, glint_error *error);
 
 void glint_primitives_free(glint_primitives *primitives);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/free_memory.h"
+#include "base/regular_file.h"
 #include "scene/document.h"
 #include "scene/gltf/find_file.h"
 #include "scene/gltf/reader_messages.h"
@@ -58,7 +59,7 @@ static glint_status open_uri(const decoding_state *decoding, const char *uri, in
     char *path;
     *file = -1;
     TRY(glint_find_file(decoding->folder, uri, &path, error));
-    const glint_status status = glint_find_open(path, file, bytes, error);
+    const glint_status status = glint_regular_file_descriptor(path, file, bytes, error);
     free(path);
     return status;
 }
@@ -249,7 +250,7 @@ static glint_status finish(decoding_state *decoding, glint_status status, glint_
     if (status == GLINT_OK && (fstat(decoding->memory, &facts) != 0 ||
                                (uint64_t)facts.st_size > GIB + MEMORY_EACH * decoding->bytes)) {
         status = glint_fail(error, GLINT_BAD_INPUT,
-                            "the reader gave a document of %lld bytes (please report the file)",
+                            PROGRAM " gave a document of %lld bytes (please report the file)",
                             (long long)facts.st_size);
     }
     if (status == GLINT_OK &&
@@ -268,7 +269,7 @@ glint_status glint_reader_run(const char *path, int *file, glint_error *error)
     int scene;
     uint64_t bytes;
     *file = -1;
-    if (glint_find_open(path, &scene, &bytes, &cause) != GLINT_OK) {
+    if (glint_regular_file_descriptor(path, &scene, &bytes, &cause) != GLINT_OK) {
         return glint_fail(error, GLINT_BAD_INPUT,
                           "cannot be opened: %s (give a .gltf or .glb file)", cause.message);
     }

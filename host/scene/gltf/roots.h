@@ -5,10 +5,6 @@
 #include "scene/document.h"
 #include "scene/gltf/tally.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Roots, each once.
 typedef struct glint_roots {
     int32_t *nodes; // [count]; owned
@@ -20,9 +16,5 @@ typedef struct glint_roots {
 // GLINT_BAD_INPUT, GLINT_OUT_OF_MEMORY.
 glint_status glint_roots_find(const glint_document *document, const char *name, glint_roots *roots,
                               glint_tally *tally, glint_error *error);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -7,10 +7,6 @@
 #include "scene/gltf/primitive.h"
 #include "scene/gltf/tally.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef struct glint_shape {
     const glint_primitive *primitive; // borrowed
     glint_morph morph;
@@ -59,9 +55,5 @@ glint_status glint_shapes_deform(glint_shape *const *shapes, size_t count, bool 
                                  glint_tally *tally, glint_error *error);
 
 void glint_shape_free(glint_shape *shape);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

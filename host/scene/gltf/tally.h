@@ -8,10 +8,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // A warning, or a pair that was added once.
 typedef struct glint_tally_entry {
     char *text, *where;   // owned
@@ -52,9 +48,5 @@ void glint_tally_mark(glint_tally *tally);
 void glint_tally_rewind(glint_tally *tally);
 
 void glint_tally_free(glint_tally *tally);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

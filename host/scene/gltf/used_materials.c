@@ -155,9 +155,8 @@ static bool is_seen(int slot, const glint_material *m)
 static glint_status do_without(glint_load *load, glint_used_material *used, int slot,
                                const char *fault, const char *where)
 {
-    if ((used->is_replaced &&
-         slot != GLINT_TEXTURE_BASE_COLOR) || // a preset keeps no other texture
-        !is_seen(slot, &used->material)) {
+    const bool is_kept = !used->is_replaced || slot == GLINT_TEXTURE_BASE_COLOR; // by a preset
+    if (!is_kept || !is_seen(slot, &used->material)) {
         return GLINT_OK;
     }
     if (slot == GLINT_TEXTURE_EMISSION) {

@@ -4,10 +4,6 @@
 
 #include "scene/gltf/load.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // The places of a node's instances, relative to the node.
 typedef struct glint_instances {
     glint_mat4 *places; // [count]; owned
@@ -24,9 +20,5 @@ glint_status glint_walk_survey(glint_load *load, glint_error *error);
 
 // Fills load->draws, scene->cameras, scene->lights and the skipped counts, for `time`.
 glint_status glint_walk(glint_load *load, double time, glint_scene *scene, glint_error *error);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -70,6 +70,40 @@ typedef struct glint_material {
     uint64_t warnings;
 } glint_material;
 
+// The factors, and the ranges in which they count: FACTOR(member, numbers, least, most). Who
+// includes this for the ranges includes <float.h>, too.
+#define GLINT_MATERIAL_FACTORS(FACTOR)                                                             \
+    FACTOR(base_color, 3, 0, 1)                                                                    \
+    FACTOR(metallic, 1, 0, 1)                                                                      \
+    FACTOR(roughness, 1, 0, 1)                                                                     \
+    FACTOR(emission, 3, 0, FLT_MAX)                                                                \
+    FACTOR(transmission, 1, 0, 1)                                                                  \
+    FACTOR(ior, 1, 1, GLINT_IOR_INFINITE)                                                          \
+    FACTOR(thickness, 1, 0, FLT_MAX)                                                               \
+    FACTOR(attenuation_distance, 1, FLT_MIN, INFINITY)                                             \
+    FACTOR(attenuation_color, 3, 0, 1)                                                             \
+    FACTOR(dispersion, 1, 0, FLT_MAX)                                                              \
+    FACTOR(specular, 1, 0, 1)                                                                      \
+    FACTOR(specular_color, 3, 0, FLT_MAX)                                                          \
+    FACTOR(clearcoat, 1, 0, 1)                                                                     \
+    FACTOR(clearcoat_roughness, 1, 0, 1)                                                           \
+    FACTOR(iridescence, 1, 0, 1)                                                                   \
+    FACTOR(iridescence_ior, 1, 1, FLT_MAX)                                                         \
+    FACTOR(iridescence_thickness, 2, 0, FLT_MAX)                                                   \
+    FACTOR(anisotropy, 1, 0, 1)                                                                    \
+    FACTOR(anisotropy_rotation, 1, -FLT_MAX, FLT_MAX)                                              \
+    FACTOR(sheen_color, 3, 0, 1)                                                                   \
+    FACTOR(sheen_roughness, 1, 0, 1)                                                               \
+    FACTOR(diffuse_transmission, 1, 0, 1)                                                          \
+    FACTOR(diffuse_transmission_color, 3, 0, 1)                                                    \
+    FACTOR(mirror, 1, -1, 1)                                                                       \
+    FACTOR(priority, 1, -1e6, 1e6)                                                                 \
+    FACTOR(alpha, 1, 0, 1)                                                                         \
+    FACTOR(alpha_cutoff, 1, 0, FLT_MAX)                                                            \
+    FACTOR(normal_scale, 1, -FLT_MAX, FLT_MAX)                                                     \
+    FACTOR(clearcoat_normal_scale, 1, -FLT_MAX, FLT_MAX)                                           \
+    FACTOR(occlusion_strength, 1, 0, 1)
+
 // Initialisers for values that a file leaves out: of KHR_materials_specular; and of specular and
 // glass.
 #define GLINT_MATERIAL_SPECULAR .specular = 1, .specular_color = {1, 1, 1}
