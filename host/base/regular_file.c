@@ -14,6 +14,7 @@ glint_status glint_regular_file_descriptor(const char *path, int *file, uint64_t
     // O_NONBLOCK: do not wait for a pipe's other end.
     const int opened = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     *file = -1;
+    *size = 0;
     if (opened < 0) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s", strerror(errno));
     }

@@ -166,23 +166,24 @@ void write_arrays(const tinygltf::Primitive &source, Arrays &arrays, Writer &wri
     row.influences = write_influences(source, arrays, writer);
 }
 
+using PrimitiveId = std::pair<std::size_t, std::size_t>; // mesh, and number in it
+
 // Returns the primitive's materials of variants; NULL: it has none.
-const MappedPrimitive *mapping_of(const Model &model, std::size_t mesh, std::size_t number)
+const MappedPrimitive *mapping_of(const Model &model, const PrimitiveId &which)
 {
-    const std::pair<std::size_t, std::size_t> which = {mesh, number};
     const auto found = std::lower_bound(model.mapped.begin(), model.mapped.end(), which,
                                         [](const MappedPrimitive &one, auto key) {
                                             return std::make_pair(one.mesh, one.number) < key;
                                         });
     const bool is_there =
-        found != model.mapped.end() && found->mesh == mesh && found->number == number;
+        found != model.mapped.end() && std::make_pair(found->mesh, found->number) == which;
     return is_there ? &*found : nullptr;
 }
 
-glint_document_primitive write_primitive(const json &source, const Model &model, std::size_t mesh,
-                                         std::size_t number, Arrays &arrays, Writer &writer)
+glint_document_primitive write_primitive(const json &source, const Model &model,
+                                         const PrimitiveId &which, Arrays &arrays, Writer &writer)
 {
-    const tinygltf::Primitive &primitive = model.meshes[mesh].primitives[number];
+    const tinygltf::Primitive &primitive = model.meshes[which.first].primitives[which.second];
     glint_document_primitive row = {};
     row.mode = primitive.mode;
     row.material = primitive.material;
@@ -193,11 +194,11 @@ glint_document_primitive write_primitive(const json &source, const Model &model,
         write_arrays(primitive, arrays, writer, notes, row);
     }
     add_all(notes, survey_extensions(source, Holder::primitive));
-    if (const auto own = model.notes.find({mesh, number}); own != model.notes.end()) {
+    if (const auto own = model.notes.find(which); own != model.notes.end()) {
         add_all(notes, own->second);
     }
     row.notes = writer.add_notes(notes);
-    if (const MappedPrimitive *mapped = mapping_of(model, mesh, number)) {
+    if (const MappedPrimitive *mapped = mapping_of(model, which)) {
         row.mapping_fault = writer.text(mapped->fault);
         std::vector<glint_document_mapping> rows;
         for (const auto &[variant, material] : mapped->materials) {
@@ -214,7 +215,7 @@ void write_meshes(const json &root, const Model &model, Arrays &arrays, Writer &
         const json &sources = objects_of(root, "meshes")[m]["primitives"];
         std::vector<glint_document_primitive> rows;
         for (std::size_t p = 0; p < model.meshes[m].primitives.size(); p++) {
-            rows.push_back(write_primitive(sources[p], model, m, p, arrays, writer));
+            rows.push_back(write_primitive(sources[p], model, {m, p}, arrays, writer));
         }
         glint_document_mesh row = {};
         row.primitives = writer.add_run(writer.primitives, rows);

@@ -143,6 +143,7 @@ glint_text Writer::text(const std::string &text)
 glint_run Writer::add_notes(const std::vector<Note> &added)
 {
     std::vector<glint_document_note> rows;
+    rows.reserve(added.size());
     for (const Note &note : added) {
         rows.push_back({text(note.where), text(note.text)});
     }
@@ -156,17 +157,23 @@ void Writer::write(std::uint64_t offset, const void *bytes, std::size_t count) c
     }
 }
 
+void Writer::write_table(glint_document_table table, const void *rows, std::size_t count,
+                         std::size_t row_bytes)
+{
+    if (count > std::size_t{INT32_MAX}) {
+        throw refusal("it has more than 2^31 things of a kind (split the scene)");
+    }
+    write(end_, rows, count * row_bytes);
+    header_->tables[table] = {end_, count};
+    end_ = round_up(end_ + count * row_bytes, alignment);
+}
+
 void Writer::finish(int default_scene)
 {
     header_->magic = GLINT_DOCUMENT_MAGIC;
     header_->default_scene = default_scene;
 #define TABLE(name, type)                                                                          \
-    if (name.size() > std::size_t{INT32_MAX}) {                                                    \
-        throw refusal("more than 2^31 " #name " (split the scene)");                               \
-    }                                                                                              \
-    write(end_, name.data(), name.size() * sizeof(type));                                          \
-    header_->tables[GLINT_TABLE_##name] = {end_, name.size()};                                     \
-    end_ = round_up(end_ + name.size() * sizeof(type), alignment);
+    write_table(GLINT_TABLE_##name, (name).data(), (name).size(), sizeof(type));
     GLINT_DOCUMENT_TABLES(TABLE)
 #undef TABLE
     if (ftruncate(file_, static_cast<off_t>(end_)) != 0) { // also an empty table lies in the file

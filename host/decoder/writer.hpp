@@ -69,7 +69,7 @@ class Writer
         return run;
     }
 
-    glint_run add_notes(const std::vector<Note> &notes);
+    glint_run add_notes(const std::vector<Note> &added);
 
     // The tables.
 #define TABLE(name, type) std::vector<type> name;
@@ -87,6 +87,8 @@ class Writer
     std::uint64_t extend(std::uint64_t bytes);
     unsigned char *map_at(std::uint64_t offset, std::uint64_t bytes);
     void write(std::uint64_t offset, const void *bytes, std::size_t count) const;
+    void write_table(glint_document_table table, const void *rows, std::size_t count,
+                     std::size_t row_bytes);
 
     int file_;
     glint_document_header *header_; // mapped

@@ -87,12 +87,14 @@ static glint_status prepare(const glint_scene_options *options, glint_scene_sour
     return GLINT_OK;
 }
 
-// Puts the file's name before a message.
+// Puts the file's name before the message of a failure. Returns the status.
 static glint_status name_failure(const char *path, glint_status status, const glint_error *cause,
                                  glint_error *error)
 {
-    return status == GLINT_OK ? GLINT_OK
-                              : glint_fail(error, status, "%s: %s", path, cause->message);
+    if (status != GLINT_OK) {
+        (void)glint_fail(error, status, "%s: %s", path, cause->message);
+    }
+    return status;
 }
 
 glint_status glint_scene_open_document(const char *path, int file,
@@ -104,7 +106,8 @@ glint_status glint_scene_open_document(const char *path, int file,
     glint_scene_source *made = glint_allocate(1, sizeof *made);
     *source = NULL;
     if (made == NULL) {
-        return glint_fail(error, GLINT_OUT_OF_MEMORY, "%s: not enough memory for the scene", path);
+        (void)glint_fail_memory(&cause, "the scene");
+        return name_failure(path, GLINT_OUT_OF_MEMORY, &cause, error);
     }
     made->load.tally = GLINT_TALLY_EMPTY;
     glint_status status = open_document(path, file, &made->load, &cause);

@@ -103,7 +103,8 @@ static glint_status draw_primitive(glint_load *load, size_t index, glint_draw dr
             instances->count > 0 ? instances->count : 1;
         return GLINT_OK;
     }
-    tally_primitive(load, index, skin >= 0 && draw.shape->bones == NULL);
+    const bool lacks_joints = skin >= 0 && draw.shape != NULL && draw.shape->bones == NULL;
+    tally_primitive(load, index, lacks_joints);
     draw.to_world = stand.to_world;
     if (draw.shape != NULL && !glint_shape_deforms(draw.shape)) {
         draw.shape = NULL; // it is the file's own
