@@ -104,7 +104,7 @@ static void put_texture(FILE *out, const glint_material *m)
     fputs(" }\n", out);
 }
 
-// Triangles do not share vertices, as in a glint_scene.
+// Triangles do not share vertices.
 static void put_mesh(FILE *out, const glint_scene *scene, uint32_t material)
 {
     size_t count = 0;
@@ -114,8 +114,8 @@ static void put_mesh(FILE *out, const glint_scene *scene, uint32_t material)
     fprintf(out, "mesh2 {\n  vertex_vectors {\n    %zu", 3 * count);
     for (size_t i = 0; i < 3 * scene->triangle_count; i++) {
         if (scene->material_of[i / 3] == material) {
-            const float *p = scene->positions + 3 * i;
-            const glint_vec3 stored = {(double)p[0], (double)p[1], (double)p[2]};
+            const glint_vec3 stored =
+                glint_vec3_from_floats(glint_scene_position(scene, i / 3, i % 3));
             fputs(",\n    ", out);
             put_vector(out, glint_vec3_add(scene->origin, glint_vec3_scale(stored, scene->unit)));
         }
@@ -125,9 +125,8 @@ static void put_mesh(FILE *out, const glint_scene *scene, uint32_t material)
         fprintf(out, "  normal_vectors {\n    %zu", 3 * count);
         for (size_t i = 0; i < 3 * scene->triangle_count; i++) {
             if (scene->material_of[i / 3] == material) {
-                const float *n = scene->normals + 3 * i;
                 fputs(",\n    ", out);
-                put_vector(out, (glint_vec3){(double)n[0], (double)n[1], (double)n[2]});
+                put_vector(out, glint_vec3_from_floats(glint_scene_normal(scene, i / 3, i % 3)));
             }
         }
         fputs("\n  }\n", out);

@@ -2,6 +2,7 @@
 // part, and no Draco fault reaches glint's process.
 #include "scene/scene.h"
 
+#include "support/by_corner.h"
 #include "support/draco_mesh.h"
 #include "support/gltf_text.h"
 #include "support/scratch.h"
@@ -86,7 +87,7 @@ static glint_scene load_packed(const char *folder, const sheet *made, bool edgeb
     size_t size;
     unsigned char *bytes = pack(made, edgebreaker, bits, &size);
     char *rest = rest_of(size, PRIMITIVE);
-    glint_scene scene = load_rest(folder, bytes, size, rest);
+    glint_scene scene = load_by_corner(folder, bytes, size, rest);
     free(rest);
     free(bytes);
     return scene;
@@ -94,14 +95,15 @@ static glint_scene load_packed(const char *folder, const sheet *made, bool edgeb
 
 static glint_scene load_plain(const char *folder, const sheet *made)
 {
-    return load_rest(folder, made, sizeof *made,
-                     "\"bufferViews\":[{\"buffer\":0,\"byteLength\":1728},{\"buffer\":0,"
-                     "\"byteOffset\":1728,\"byteLength\":1728},{\"buffer\":0,\"byteOffset\":3456,"
-                     "\"byteLength\":2904}],\"accessors\":[{\"bufferView\":0,\"componentType\":"
-                     "5126,\"count\":144,\"type\":\"VEC3\"},{\"bufferView\":1,\"componentType\":"
-                     "5126,\"count\":144,\"type\":\"VEC3\"},{\"bufferView\":2,\"componentType\":"
-                     "5125,\"count\":726,\"type\":\"SCALAR\"}],\"meshes\":[{\"primitives\":[{"
-                     "\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":2}]}]" NODES);
+    return load_by_corner(
+        folder, made, sizeof *made,
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":1728},{\"buffer\":0,"
+        "\"byteOffset\":1728,\"byteLength\":1728},{\"buffer\":0,\"byteOffset\":3456,"
+        "\"byteLength\":2904}],\"accessors\":[{\"bufferView\":0,\"componentType\":"
+        "5126,\"count\":144,\"type\":\"VEC3\"},{\"bufferView\":1,\"componentType\":"
+        "5126,\"count\":144,\"type\":\"VEC3\"},{\"bufferView\":2,\"componentType\":"
+        "5125,\"count\":726,\"type\":\"SCALAR\"}],\"meshes\":[{\"primitives\":[{"
+        "\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":2}]}]" NODES);
 }
 
 // ---- Unpacked data ------------------------------------------------------------------------------
@@ -198,6 +200,7 @@ static void primitives_can_share_a_view(void **state)
     if (glint_scene_load(path, NULL, &scene, NULL, &error) != GLINT_OK) {
         fail_msg("%s", error.message);
     }
+    scene_by_corner(&scene);
     assert_int_equal(scene.triangle_count, 2 * TRIANGLES);
     assert_memory_equal(scene.positions, scene.positions + 9 * TRIANGLES,
                         TRIANGLES * 9 * sizeof(float));
@@ -217,7 +220,7 @@ static void strips_are_lists_once_decoded(void **state)
     char *rest = rest_of(size, PRIMITIVE);
     memcpy(strstr(rest, "\"mode\":4"), "\"mode\":5", 8);
     memcpy(strstr(rest, "\"count\":726"), "\"count\":365", 11);
-    glint_scene scene = load_rest(*state, bytes, size, rest);
+    glint_scene scene = load_by_corner(*state, bytes, size, rest);
     assert_int_equal(scene.triangle_count, TRIANGLES);
     assert_memory_equal(scene.positions, plain.positions, TRIANGLES * 9 * sizeof(float));
     glint_scene_free(&scene);
@@ -292,6 +295,7 @@ static void accessors_with_other_counts_change_nothing(void **state)
         if (load_text(*state, text, &scene, &warnings, &error) != GLINT_OK) {
             fail_msg("%s: %s", counts[i].to, error.message);
         }
+        scene_by_corner(&scene);
         assert_int_equal(scene.triangle_count, TRIANGLES);
         assert_memory_equal(scene.positions, plain.positions, TRIANGLES * 9 * sizeof(float));
         assert_memory_equal(scene.normals, plain.normals, TRIANGLES * 9 * sizeof(float));
@@ -325,6 +329,7 @@ static void primitives_of_a_view_may_say_different_counts(void **state)
     glint_scene scene;
     glint_warnings warnings = {0};
     assert_int_equal(load_text(*state, text, &scene, &warnings, NULL), GLINT_OK);
+    scene_by_corner(&scene);
     assert_int_equal(scene.triangle_count, 2 * TRIANGLES);
     assert_memory_equal(scene.positions, scene.positions + 9 * TRIANGLES,
                         TRIANGLES * 9 * sizeof(float));
@@ -417,7 +422,7 @@ static void what_no_accessor_asked_for_has_a_limit(void **state)
     a_lie_is_refused(*state, bytes, size, rest, " packed bytes may take ");
     free(rest);
     rest = greedy_rest(size, "65536");
-    glint_scene scene = load_rest(*state, bytes, size, rest);
+    glint_scene scene = load_by_corner(*state, bytes, size, rest);
     assert_int_equal(scene.triangle_count, faces);
     glint_scene_free(&scene);
     free(rest);

@@ -2,6 +2,7 @@
 // takes otherwise. The rule is in docs/formats.md.
 #include "scene/scene.h"
 
+#include "support/by_corner.h"
 #include "support/gltf_text.h"
 #include "support/scratch.h"
 
@@ -119,6 +120,7 @@ static void the_first_two_of_three_coordinates_count(void **state)
     glint_scene scene = load_faulty(*state, &one);
     assert_true(scene.attribute_set.texcoords);
     const size_t stride = glint_attributes_stride(&scene.attribute_set);
+    scene_by_corner(&scene);
     for (size_t corner = 0; corner < 12; corner++) {
         const float *from = the_tetrahedron.positions[the_tetrahedron.indices[corner]];
         assert_memory_equal(scene.attributes + stride * corner, from, 2 * sizeof(float));

@@ -1,6 +1,7 @@
 // Tests views packed by meshoptimizer: unpacking keeps the data, and errors name the damaged part.
 #include "scene/scene.h"
 
+#include "support/by_corner.h"
 #include "support/gltf_text.h"
 #include "support/scratch.h"
 
@@ -138,16 +139,18 @@ static glint_scene load_good(const char *folder, const pack *from, const char *r
         fail_msg("%s", error.message);
     }
     free(text);
+    scene_by_corner(&scene);
     return scene;
 }
 
 // Loads the sheet without packing.
 static glint_scene load_plain(const char *folder, const sheet *made)
 {
-    return load_rest(folder, made, sizeof *made,
-                     "\"bufferViews\":[{\"buffer\":0,\"byteLength\":4800},{\"buffer\":0,"
-                     "\"byteOffset\":4800,\"byteLength\":4800},{\"buffer\":0,\"byteOffset\":9600,"
-                     "\"byteLength\":8664}]," SHEET(FLOAT_NORMALS, 5125));
+    return load_by_corner(
+        folder, made, sizeof *made,
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":4800},{\"buffer\":0,"
+        "\"byteOffset\":4800,\"byteLength\":4800},{\"buffer\":0,\"byteOffset\":9600,"
+        "\"byteLength\":8664}]," SHEET(FLOAT_NORMALS, 5125));
 }
 
 // ---- Lossless -----------------------------------------------------------------------------------

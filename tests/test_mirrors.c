@@ -2,6 +2,7 @@
 // the oracle, against the kernel with all features, and at every width and size of tiles.
 #include "base/random.h"
 #include "support/bridge.h"
+#include "support/by_corner.h"
 #include "support/render.h"
 
 #include <math.h>
@@ -172,6 +173,7 @@ static void load_case(const mirror_case *c, glint_scene *scene, glint_environmen
 {
     *scene = (glint_scene){0};
     test_scene_load("mirror_sphere", scene);
+    scene_by_corner(scene);
     assert_non_null(scene->normals);
     c->change(scene);
     bridge_direction_environment(EDGE, environment);

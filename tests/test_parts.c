@@ -69,10 +69,15 @@ static glint_parts parts_of(const heap *h)
 static double largest_error(const heap *h, const glint_parts *parts, size_t first, size_t end)
 {
     double largest = 0;
-    for (size_t i = 9 * first; i < 9 * end; i++) {
-        const double anchor = (double)parts->anchors[parts->part_of[i / 9]][i % 3];
-        const double exact = h->corners[i / 9][i / 3 % 3][i % 3];
-        largest = fmax(largest, fabs(anchor + (double)parts->positions[i] - exact));
+    for (size_t i = 3 * first; i < 3 * end; i++) {
+        const uint32_t part = parts->part_of[i / 3];
+        const double *exact = h->corners[i / 3][i % 3];
+        float told[3];
+        glint_parts_tell(parts, part, exact, told);
+        for (int k = 0; k < 3; k++) {
+            const double anchor = (double)parts->anchors[part][k];
+            largest = fmax(largest, fabs(anchor + (double)told[k] - exact[k]));
+        }
     }
     return largest;
 }
@@ -86,7 +91,7 @@ static void no_parts_without_need(void **state)
     add_tetrahedron(&h, place, 0.1);
     glint_parts parts = parts_of(&h);
     assert_int_equal(parts.count, 0);
-    assert_null(parts.positions);
+    assert_null(parts.part_of);
     // Small parts also need small triangles.
     assert_false(glint_parts_may_be_there(0.01));
     assert_true(glint_parts_may_be_there(0.001));
@@ -187,6 +192,22 @@ static void zeros_of_both_signs_are_one(void **state)
 // ---- Files --------------------------------------------------------------------------------------
 
 // The tetrahedron as a floor of a thousand metres, and as a bead of a millimetre on it.
+static void assert_is_bead(const glint_scene *scene, size_t first)
+{
+    const glint_vec3 place = {700.1, 0.3, 11.7};
+    for (size_t t = first; t < first + 4; t++) {
+        for (size_t c = 0; c < 3; c++) {
+            const glint_vec3 stored = glint_scene_corner(scene, t, c);
+            const glint_vec3 at =
+                glint_vec3_add(scene->origin, glint_vec3_scale(stored, scene->unit));
+            const glint_vec3 off = glint_vec3_scale(glint_vec3_subtract(at, place), 1000);
+            // Within a millionth of the bead's size from a corner of the tetrahedron.
+            const double sum = off.x + off.y + off.z;
+            assert_true(fabs(sum) < 1e-6 || fabs(sum - 1) < 1e-6);
+        }
+    }
+}
+
 static void a_file_keeps_what_is_small(void **state)
 {
     glint_scene scene = load_rest(
@@ -196,21 +217,12 @@ static void a_file_keeps_what_is_small(void **state)
                     "\"scenes\":[{\"nodes\":[0,1]}]");
     assert_int_equal(scene.triangle_count, 8);
     assert_int_equal(scene.parts.count, 2);
-    const glint_vec3 place = {700.1, 0.3, 11.7};
-    for (size_t t = 4; t < 8; t++) {
-        for (int c = 0; c < 3; c++) {
-            const glint_vec3 stored = glint_scene_corner(&scene, t, c);
-            const glint_vec3 at =
-                glint_vec3_add(scene.origin, glint_vec3_scale(stored, scene.unit));
-            const glint_vec3 off = glint_vec3_scale(glint_vec3_subtract(at, place), 1000);
-            // Within a millionth of the bead's size from a corner of the tetrahedron.
-            const double sum = off.x + off.y + off.z;
-            assert_true(fabs(sum) < 1e-6 || fabs(sum - 1) < 1e-6);
-        }
-    }
+    assert_is_bead(&scene, 4);
     assert_int_equal(glint_scene_remove_nodes(&scene, "0", NULL), GLINT_OK);
     assert_int_equal(scene.triangle_count, 4);
     assert_true(scene.parts.part_of[0] == 1);
+    assert_int_equal(scene.vertex_count, 4);
+    assert_is_bead(&scene, 0);
     glint_scene_free(&scene);
 }
 

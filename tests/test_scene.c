@@ -20,7 +20,7 @@ static glint_vec3 world(const glint_scene *scene, const float *p)
 
 static glint_vec3 corner(const glint_scene *scene, size_t triangle, size_t c)
 {
-    return world(scene, scene->positions + 9 * triangle + 3 * c);
+    return world(scene, glint_scene_position(scene, triangle, c));
 }
 
 static void assert_near3(glint_vec3 v, double x, double y, double z)
@@ -50,7 +50,7 @@ static void assert_normals_outside(const glint_scene *scene)
         glint_vec3 face = glint_vec3_cross(glint_vec3_subtract(corner(scene, t, 1), a),
                                            glint_vec3_subtract(corner(scene, t, 2), a));
         for (size_t c = 0; c < 3; c++) {
-            const float *n = scene->normals + 9 * t + 3 * c;
+            const float *n = glint_scene_normal(scene, t, c);
             glint_vec3 normal = {n[0], n[1], n[2]};
             assert_true(fabs(glint_vec3_length(normal) - 1) < 1e-6);
             assert_true(glint_vec3_dot(normal, face) >= 0);
@@ -100,7 +100,7 @@ static void normals_turn_by_the_inverse_transpose(void **state)
     const struct {
         float positions[3][3], normals[3][3];
     } data = {{{1, 0, 0}, {0, 1, 0}, {0, 1, -1}}, {{1, 1, 0}, {1, 1, 0}, {1, 1, 0}}};
-    glint_scene scene = load_rest(
+    glint_scene scene = load_by_corner(
         *state, &data, sizeof data,
         "\"bufferViews\":[{\"buffer\":0,\"byteLength\":72}],\"accessors\":["
         "{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},{\"bufferView\":0,"
@@ -168,7 +168,7 @@ static glint_scene load_mode(const char *folder, int mode, int index_type, const
              "\"nodes\":[{\"mesh\":0}]," ONE_SCENE,
              positions, index_type == 0 ? 5121 : index_type, count, mode,
              index_type == 0 ? "" : ",\"indices\":1");
-    return load_rest(folder, &data, sizeof data, rest);
+    return load_by_corner(folder, &data, sizeof data, rest);
 }
 
 static bool same_triangle(const float *a, const float *b)
@@ -246,11 +246,11 @@ static void triangles_without_area_are_counted_and_left_out(void **state)
                {0.5f, 1e-7f, 0},
                {1, 0, 0}}}; // a sliver is a triangle
     glint_scene scene =
-        load_rest(*state, &data, sizeof data,
-                  "\"bufferViews\":[{\"buffer\":0,\"byteLength\":180}],\"accessors\":["
-                  "{\"bufferView\":0,\"componentType\":5126,\"count\":15,\"type\":\"VEC3\"}],"
-                  "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
-                  "\"nodes\":[{\"mesh\":0}]," ONE_SCENE);
+        load_by_corner(*state, &data, sizeof data,
+                       "\"bufferViews\":[{\"buffer\":0,\"byteLength\":180}],\"accessors\":["
+                       "{\"bufferView\":0,\"componentType\":5126,\"count\":15,\"type\":\"VEC3\"}],"
+                       "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+                       "\"nodes\":[{\"mesh\":0}]," ONE_SCENE);
     assert_int_equal(scene.degenerate_triangles, 3);
     assert_int_equal(scene.triangle_count, 2);
     assert_true(scene.high.x == 1); // triangles without area do not count in the bounds
@@ -271,7 +271,7 @@ static void stored_coordinates_lie_within_one(void **state)
         int exponent;
         assert_true(frexp(scene.unit, &exponent) == 0.5); // a power of two
         float largest = 0;
-        for (size_t k = 0; k < 9 * scene.triangle_count; k++) {
+        for (size_t k = 0; k < 3 * scene.vertex_count; k++) {
             largest = fmaxf(largest, fabsf(scene.positions[k]));
         }
         assert_true(largest <= 1);
@@ -286,7 +286,9 @@ static void far_from_the_origin_nothing_is_lost(void **state)
     glint_scene near = load_tetrahedron(*state, "\"nodes\":[{\"mesh\":0}]," ONE_SCENE);
     glint_scene far = load_tetrahedron(
         *state, "\"nodes\":[{\"mesh\":0,\"translation\":[1000000,-2000000,3000000]}]," ONE_SCENE);
-    assert_memory_equal(near.positions, far.positions, 36 * sizeof(float));
+    assert_int_equal(near.vertex_count, 4);
+    assert_memory_equal(near.positions, far.positions, 12 * sizeof(float));
+    assert_memory_equal(near.indices, far.indices, 12 * sizeof *near.indices);
     assert_true(far.origin.x == near.origin.x + 1e6);
     glint_scene_free(&near);
     glint_scene_free(&far);
@@ -303,8 +305,8 @@ static void a_power_of_two_scale_gives_the_same_bits(void **state)
         char rest[512];
         snprintf(rest, sizeof rest, format, scales[i], scales[i], scales[i]);
         scenes[i] = load_tetrahedron(*state, rest);
-        assert_memory_equal(scenes[0].positions, scenes[i].positions, 36 * sizeof(float));
-        assert_memory_equal(scenes[0].normals, scenes[i].normals, 36 * sizeof(float));
+        assert_memory_equal(scenes[0].positions, scenes[i].positions, 12 * sizeof(float));
+        assert_memory_equal(scenes[0].normals, scenes[i].normals, 12 * sizeof(float));
     }
     for (size_t i = 0; i < 3; i++) {
         glint_scene_free(&scenes[i]);
@@ -343,7 +345,7 @@ static void sparse_and_absent_data_are_zeros_elsewhere(void **state)
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":2}},"
         "{\"attributes\":{\"POSITION\":1}},{\"attributes\":{\"POSITION\":2}},"
         "{\"attributes\":{\"POSITION\":0},\"indices\":3}]}],\"nodes\":[{\"mesh\":0}]," ONE_SCENE;
-    glint_scene scene = load_rest(*state, &data, sizeof data, rest);
+    glint_scene scene = load_by_corner(*state, &data, sizeof data, rest);
     // Positions or indices that are all zero give triangles without area.
     assert_int_equal(scene.triangle_count, 2);
     assert_int_equal(scene.degenerate_triangles, 2);
@@ -367,8 +369,8 @@ static void unusable_normals_become_zero(void **state)
     data.normals[1][1] = INFINITY;
     data.normals[2][1] = 0;
     data.normals[3][2] = 1e-30f; // short, but usable
-    glint_scene scene =
-        load_rest(*state, &data, sizeof data, TETRAHEDRON ",\"nodes\":[{\"mesh\":0}]," ONE_SCENE);
+    glint_scene scene = load_by_corner(*state, &data, sizeof data,
+                                       TETRAHEDRON ",\"nodes\":[{\"mesh\":0}]," ONE_SCENE);
     for (size_t i = 0; i < 12; i++) {
         const float *n = scene.normals + 3 * i;
         glint_vec3 normal = {n[0], n[1], n[2]};
@@ -397,7 +399,7 @@ static void quantized_positions_and_normals_are_scaled(void **state)
     for (int normalized = 0; normalized < 2; normalized++) {
         char text[2048];
         snprintf(text, sizeof text, rest, normalized ? "true" : "false");
-        glint_scene scene = load_rest(*state, &data, sizeof data, text);
+        glint_scene scene = load_by_corner(*state, &data, sizeof data, text);
         assert_near3(scene.high, normalized ? 1 : 32767, 0, 0);
         assert_near3(scene.low, 0, normalized ? -1 : -32768, 0);
         assert_true(scene.normals[2] == -1);
@@ -424,7 +426,7 @@ static void instancing_draws_the_mesh_at_every_place(void **state)
         "\"nodes\":[{\"mesh\":0,\"translation\":[0,0,5],\"extensions\":{\"EXT_mesh_gpu_"
         "instancing\":"
         "{\"attributes\":{\"TRANSLATION\":2,\"SCALE\":3}}}}]," ONE_SCENE;
-    glint_scene scene = load_rest(*state, &data, sizeof data, rest);
+    glint_scene scene = load_by_corner(*state, &data, sizeof data, rest);
     assert_int_equal(scene.instance_count, 2);
     assert_int_equal(scene.triangle_count, 8);
     assert_near3(corner(&scene, 0, 0), 10, 0, 5);

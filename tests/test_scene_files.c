@@ -22,7 +22,7 @@ static glint_vec3 world(const glint_scene *scene, const float *p)
 
 static glint_vec3 corner(const glint_scene *scene, size_t triangle, size_t c)
 {
-    return world(scene, scene->positions + 9 * triangle + 3 * c);
+    return world(scene, glint_scene_position(scene, triangle, c));
 }
 
 static void assert_near3(glint_vec3 v, double x, double y, double z)
@@ -285,7 +285,9 @@ static void buffers_come_from_files_data_uris_and_glb(void **state)
             fail_msg("%s", error.message);
         }
         assert_int_equal(scene.triangle_count, 4);
-        assert_memory_equal(scene.positions, expected.positions, 36 * sizeof(float));
+        assert_int_equal(scene.vertex_count, 4);
+        assert_memory_equal(scene.positions, expected.positions, 12 * sizeof(float));
+        assert_memory_equal(scene.indices, expected.indices, 12 * sizeof *scene.indices);
         glint_scene_free(&scene);
     }
     glint_scene_free(&expected);

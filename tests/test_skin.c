@@ -2,6 +2,7 @@
 // (support/figure.h), and against closed forms.
 #include "scene/scene.h"
 
+#include "support/by_corner.h"
 #include "support/figure.h"
 #include "support/gltf_text.h"
 #include "support/scratch.h"
@@ -48,6 +49,7 @@ static glint_scene warned_scene_at(glint_scene_source *source, double time, cons
         fail_msg("said: %s", said);
     }
     glint_warnings_free(&warnings);
+    scene_by_corner(&scene);
     return scene;
 }
 

@@ -3,6 +3,7 @@
 // tests the substitutes for unreadable textures.
 #include "scene/material/material_override.h"
 #include "support/bridge.h"
+#include "support/by_corner.h"
 #include "support/gltf_text.h"
 #include "support/render.h"
 #include "support/scratch.h"
@@ -352,6 +353,9 @@ static void presets_take_colors_of_vertices_away_or_keep_them(void **state)
     glint_scene paint = load_overridden(plain.path, "a=paint", NULL);
     assert_int_equal(plain.triangle_count, 4);
     assert_int_equal(glint_attributes_stride(&plain.attribute_set), 4);
+    scene_by_corner(&plain);
+    scene_by_corner(&glass);
+    scene_by_corner(&paint);
     for (int i = 0; i < 2 * 3 * 4; i++) {
         assert_true(glass.attributes[i] == 1);
         assert_true(paint.attributes[i] == plain.attributes[i]);

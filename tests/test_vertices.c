@@ -4,6 +4,7 @@
 #include "environment/irradiance.h"
 #include "scene/shape/icosphere.h"
 #include "support/bridge.h"
+#include "support/by_corner.h"
 #include "support/render.h"
 
 #include <math.h>
@@ -356,6 +357,7 @@ static void begin(const vertex_case *c, setting *s)
 {
     *s = (setting){0};
     test_scene_load(c->scene, &s->scene);
+    scene_by_corner(&s->scene);
     c->change(&s->scene);
     bridge_direction_environment(64, &s->environment);
     assert_int_equal(
@@ -484,6 +486,7 @@ static void make_sphere(int level, glint_scene *scene)
     const size_t triangles = (size_t)20 << 2 * level;
     *scene = (glint_scene){0};
     test_scene_load("mirror_sphere", scene);
+    scene_by_corner(scene);
     assert_int_equal(scene->instance_count, 1);
     free(scene->positions);
     free(scene->normals);

@@ -3,6 +3,7 @@
 #define GLINT_ACCEL_BVH_H
 
 #include "base/status.h"
+#include "base/vector.h"
 #include "kernels/layout.h"
 
 #include <stdbool.h>
@@ -65,21 +66,50 @@ typedef struct glint_bvh {
 
 // Triangles as a scene holds them. Pointers are borrowed.
 typedef struct glint_bvh_inputs {
-    const float *positions;  // [triangle_count][3 vertices][3], magnitudes below GLINT_FAR
+    // [triangle_count][3], the triangles' vertices. NULL: corner c of triangle t is vertex 3 t + c.
+    const uint32_t *indices;
+    const float *positions;  // [vertex][3], magnitudes below GLINT_FAR
     const float *told;       // positions relative to their parts' anchors; NULL: there are no parts
     const uint32_t *part_of; // [triangle_count], the part of each triangle; only with parts
     const float (*anchors)[3];   // the parts' anchors
-    const float *normals;        // the same shape as positions, or NULL
+    const float *normals;        // [vertex][3], or NULL
+    bool has_normals_by_corner;  // normals: [triangle_count][3][3]
     const uint32_t *material_of; // [triangle_count]
     size_t triangle_count;
     int width;      // children of a node: 8 or 16
     size_t threads; // 0: one per core; the tree is the same for any number
 } glint_bvh_inputs;
 
-// Returns the positions that clusters store: relative to the anchors if there are parts.
-static inline const float *glint_bvh_told(const glint_bvh_inputs *in)
+// Returns the vertex at corner 0, 1 or 2 of a triangle.
+static inline size_t glint_bvh_vertex(const glint_bvh_inputs *in, size_t triangle, size_t corner)
 {
-    return in->told != NULL ? in->told : in->positions;
+    const size_t at = 3 * triangle + corner;
+    return in->indices != NULL ? in->indices[at] : at;
+}
+
+// Returns three floats of a corner: its position or normal.
+typedef const float *glint_bvh_value(const glint_bvh_inputs *in, size_t triangle, size_t corner);
+
+// Returns a corner's position as clusters store it: relative to the anchor if there are parts.
+static inline const float *glint_bvh_told(const glint_bvh_inputs *in, size_t triangle,
+                                          size_t corner)
+{
+    return (in->told != NULL ? in->told : in->positions) +
+           3 * glint_bvh_vertex(in, triangle, corner);
+}
+
+// Returns a corner's normal; only with normals.
+static inline const float *glint_bvh_normal(const glint_bvh_inputs *in, size_t triangle,
+                                            size_t corner)
+{
+    return in->normals + 3 * (in->has_normals_by_corner ? 3 * triangle + corner
+                                                        : glint_bvh_vertex(in, triangle, corner));
+}
+
+static inline bool glint_bvh_has_area(const glint_bvh_inputs *in, size_t triangle)
+{
+    return glint_triangle_has_area(glint_bvh_told(in, triangle, 0), glint_bvh_told(in, triangle, 1),
+                                   glint_bvh_told(in, triangle, 2));
 }
 
 // Returns the anchor to which a triangle's stored corners are relative.

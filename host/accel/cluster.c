@@ -10,11 +10,12 @@ _Static_assert(sizeof(glint_cluster) == GLINT_CLUSTER_VALUES * sizeof(float) &&
                "glint_cluster differs from kernels/layout.h");
 
 // Writes values[axis][lane] of the vertices of a leaf.
-static void gather(const float *from, const glint_leaf *leaf, float *values)
+static void gather(const glint_bvh_inputs *in, glint_bvh_value *value_at, const glint_leaf *leaf,
+                   float *values)
 {
     for (int lane = 0; lane < GLINT_CLUSTER_LANES; lane++) {
         size_t triangle = leaf->triangles[leaf->sources[lane] / 4];
-        const float *v = from + 9 * triangle + 3 * (leaf->sources[lane] % 4);
+        const float *v = value_at(in, triangle, leaf->sources[lane] % 4);
         for (int axis = 0; axis < 3; axis++) {
             values[axis * GLINT_CLUSTER_LANES + lane] = v[axis];
         }
@@ -31,9 +32,9 @@ void glint_cluster_fill(const glint_bvh_inputs *in, const glint_leaf *leaf, cons
     cluster->facts = leaf->count | (int32_t)(in->material_of[first] << GLINT_CLUSTER_COUNT_BITS);
     memcpy(cluster->anchor, glint_bvh_anchor(in, first), sizeof cluster->anchor);
     memcpy(cluster->corners, leaf->corners, sizeof cluster->corners);
-    gather(glint_bvh_told(in), leaf, cluster->positions[0]);
+    gather(in, glint_bvh_told, leaf, cluster->positions[0]);
     if (in->normals != NULL) {
-        gather(in->normals, leaf, bvh->normals + index * GLINT_CLUSTER_NORMALS);
+        gather(in, glint_bvh_normal, leaf, bvh->normals + index * GLINT_CLUSTER_NORMALS);
     }
     for (int lane = 0; lane < GLINT_CLUSTER_LANES; lane++) {
         numbers[lane] = lane < leaf->count ? (int32_t)leaf->triangles[lane] : -1;

@@ -87,7 +87,7 @@ static glint_range unbundle(const worker *w, const glint_range *range)
     single.references = w->references;
     single.spare = w->spare;
     single.count = range->triangle_count;
-    glint_references_unbundle(w->in->positions, range->references, range->count, w->references);
+    glint_references_unbundle(w->in, range->references, range->count, w->references);
     measure(&single);
     return single;
 }

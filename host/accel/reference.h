@@ -47,7 +47,7 @@ size_t glint_references_make(const glint_bvh_inputs *in, size_t first, size_t co
                              glint_reference *references);
 
 // Makes a single reference to each triangle of some references, in their order.
-void glint_references_unbundle(const float *positions, const glint_reference *bundles,
+void glint_references_unbundle(const glint_bvh_inputs *in, const glint_reference *bundles,
                                size_t bundle_count, glint_reference *references);
 
 #endif

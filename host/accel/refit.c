@@ -6,7 +6,6 @@
 #include "accel/wide_box.h"
 #include "base/memory.h"
 #include "base/parallel.h"
-#include "base/vector.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -29,8 +28,7 @@ static bool is_whole(const glint_bvh_inputs *in, const glint_cluster *cluster,
     }
     for (int k = 0; k < glint_cluster_count(cluster); k++) {
         const size_t number = (size_t)numbers[k];
-        if (glint_bvh_group(in, number) != group ||
-            !glint_triangle_has_area(glint_bvh_told(in) + 9 * number)) {
+        if (glint_bvh_group(in, number) != group || !glint_bvh_has_area(in, number)) {
             return false;
         }
     }
@@ -47,14 +45,14 @@ static bool have_same_bits(float a, float b)
 
 // Writes values[axis][lane] of each vertex from its triangles. Returns false if two triangles that
 // shared a vertex came apart; `values` are then undefined.
-static bool gather(const float *from, const glint_cluster *cluster, const int32_t *numbers,
-                   float *values)
+static bool gather(const refit *r, glint_bvh_value *value_at, const glint_cluster *cluster,
+                   const int32_t *numbers, float *values)
 {
     bool is_set[GLINT_CLUSTER_LANES] = {false};
     for (int k = 0; k < glint_cluster_count(cluster); k++) {
-        for (int corner = 0; corner < 3; corner++) {
+        for (size_t corner = 0; corner < 3; corner++) {
             const int lane = cluster->corners[corner][k];
-            const float *v = from + 9 * (size_t)numbers[k] + 3 * corner;
+            const float *v = value_at(r->in, (size_t)numbers[k], corner);
             for (int axis = 0; axis < 3; axis++) {
                 float *value = &values[axis * GLINT_CLUSTER_LANES + lane];
                 if (is_set[lane] && !have_same_bits(*value, v[axis])) {
@@ -97,9 +95,9 @@ static void refit_some(size_t task, void *context)
         glint_cluster *cluster = &bvh->clusters[i];
         const int32_t *numbers = bvh->numbers + i * GLINT_CLUSTER_LANES;
         if (!is_whole(r->in, cluster, numbers) ||
-            !gather(glint_bvh_told(r->in), cluster, numbers, cluster->positions[0]) ||
-            (bvh->normals != NULL &&
-             !gather(r->in->normals, cluster, numbers, bvh->normals + i * GLINT_CLUSTER_NORMALS))) {
+            !gather(r, glint_bvh_told, cluster, numbers, cluster->positions[0]) ||
+            (bvh->normals != NULL && !gather(r, glint_bvh_normal, cluster, numbers,
+                                             bvh->normals + i * GLINT_CLUSTER_NORMALS))) {
             atomic_store(&r->has_torn, true);
             return;
         }
@@ -141,7 +139,7 @@ static size_t count_with_area(const glint_bvh_inputs *in)
 {
     size_t count = 0;
     for (size_t i = 0; i < in->triangle_count; i++) {
-        count += glint_triangle_has_area(glint_bvh_told(in) + 9 * i);
+        count += glint_bvh_has_area(in, i);
     }
     return count;
 }

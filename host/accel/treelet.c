@@ -45,16 +45,18 @@ typedef struct vertex_bits {
     uint64_t words[3];
 } vertex_bits;
 
-static inline vertex_bits bits_of(const glint_bvh_inputs *in, size_t value)
+static inline vertex_bits bits_of(const glint_bvh_inputs *in, size_t triangle, size_t corner)
 {
     vertex_bits bits;
     uint32_t last[2] = {0, 0};
-    memcpy(&bits.words[0], glint_bvh_told(in) + value, sizeof bits.words[0]);
-    memcpy(&last[0], glint_bvh_told(in) + value + 2, sizeof last[0]);
+    const float *told = glint_bvh_told(in, triangle, corner);
+    memcpy(&bits.words[0], told, sizeof bits.words[0]);
+    memcpy(&last[0], told + 2, sizeof last[0]);
     bits.words[1] = 0;
     if (in->normals != NULL) {
-        memcpy(&bits.words[1], in->normals + value, sizeof bits.words[1]);
-        memcpy(&last[1], in->normals + value + 2, sizeof last[1]);
+        const float *normal = glint_bvh_normal(in, triangle, corner);
+        memcpy(&bits.words[1], normal, sizeof bits.words[1]);
+        memcpy(&last[1], normal + 2, sizeof last[1]);
     }
     bits.words[2] = (uint64_t)last[1] << 32 | last[0];
     return bits;
@@ -82,8 +84,8 @@ static int number_vertices(treelet *t)
     vertex_bits vertices[3 * CAPACITY + 1];
     int count = 0;
     for (int i = 0; i < t->count; i++) {
-        for (int corner = 0; corner < 3; corner++) {
-            vertices[count] = bits_of(t->in, 9 * (size_t)t->triangles[i] + 3 * (size_t)corner);
+        for (size_t corner = 0; corner < 3; corner++) {
+            vertices[count] = bits_of(t->in, t->triangles[i], corner);
             unsigned slot = hash_of(&vertices[count]);
             while (table[slot] != 0 && !same_bits(&vertices[table[slot] - 1], &vertices[count])) {
                 slot = (slot + 1) % (1 << TABLE_BITS);

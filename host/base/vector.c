@@ -22,12 +22,12 @@ static bool products_equal(double a, double b, double c, double d)
     return first == second && fma(a, b, -first) == fma(c, d, -second);
 }
 
-bool glint_triangle_has_area(const float corners[9])
+bool glint_triangle_has_area(const float a[3], const float b[3], const float c[3])
 {
     double u[3], v[3];
     for (int k = 0; k < 3; k++) {
-        u[k] = (double)corners[3 + k] - (double)corners[k];
-        v[k] = (double)corners[6 + k] - (double)corners[k];
+        u[k] = (double)b[k] - (double)a[k];
+        v[k] = (double)c[k] - (double)a[k];
     }
     return !(products_equal(u[1], v[2], u[2], v[1]) && products_equal(u[2], v[0], u[0], v[2]) &&
              products_equal(u[0], v[1], u[1], v[0]));

@@ -20,6 +20,11 @@ typedef struct glint_mat4 {
     double m[4][4];
 } glint_mat4;
 
+static inline glint_vec3 glint_vec3_from_floats(const float values[3])
+{
+    return (glint_vec3){(double)values[0], (double)values[1], (double)values[2]};
+}
+
 static inline glint_vec3 glint_vec3_add(glint_vec3 a, glint_vec3 b)
 {
     return (glint_vec3){a.x + b.x, a.y + b.y, a.z + b.z};
@@ -53,9 +58,9 @@ static inline double glint_vec3_length(glint_vec3 a)
 // Returns the unit vector along `a`, or (0, 0, 0) for zero, infinite or NaN components.
 glint_vec3 glint_vec3_normalize(glint_vec3 a);
 
-// True if the corners (three values each, all finite) are not in line. The test is exact if they
-// lie within 2^29 of one another; farther apart, their differences are rounded.
-bool glint_triangle_has_area(const float corners[9]);
+// True if the corners (all finite) are not in line. The test is exact if they lie within 2^29 of
+// one another; farther apart, their differences are rounded.
+bool glint_triangle_has_area(const float a[3], const float b[3], const float c[3]);
 
 extern const glint_mat4 glint_mat4_identity;
 

@@ -30,6 +30,22 @@ static size_t attribute_bytes(const glint_scene *scene)
            sizeof(float);
 }
 
+// Lists the attributes by corner, as kernels read them. Returns the scene's own array if it is such
+// a list, else an array that the caller frees; NULL if memory is short.
+static float *attributes_by_corner(const glint_scene *scene)
+{
+    if (scene->attributes == NULL || scene->indices == NULL) {
+        return scene->attributes;
+    }
+    const size_t stride = glint_attributes_stride(&scene->attribute_set);
+    float *listed = glint_allocate_unset(3 * scene->triangle_count, stride * sizeof *listed);
+    for (size_t i = 0; listed != NULL && i < 3 * scene->triangle_count; i++) {
+        memcpy(listed + stride * i, scene->attributes + stride * scene->indices[i],
+               stride * sizeof *listed);
+    }
+    return listed;
+}
+
 static size_t solid_bytes(const glint_scene *scene, const glint_plan *plan)
 {
     return plan->features[GLINT_FEATURE_OVERLAPS].compiled
@@ -185,7 +201,8 @@ static glint_status upload_materials(const glint_upload_inputs *in, glint_geomet
     size_t media_count;
     glint_material_record *materials = glint_allocate(count + 1, sizeof *materials);
     glint_medium_record *media = media_records(in, &media_count);
-    if (materials == NULL || media == NULL) {
+    float *attributes = attributes_by_corner(scene);
+    if (materials == NULL || media == NULL || (attributes == NULL && scene->attributes != NULL)) {
         status = glint_fail_memory(error, "the materials");
         goto cleanup;
     }
@@ -202,7 +219,7 @@ static glint_status upload_materials(const glint_upload_inputs *in, glint_geomet
     const glint_content contents[] = {
         {"the materials", (count + 1) * sizeof *materials, materials},
         {"the media", (media_count + 1) * sizeof *media, media},
-        {"the vertices' attributes", attribute_bytes(scene), scene->attributes},
+        {"the vertices' attributes", attribute_bytes(scene), attributes},
         {"the solids' triangles", solid_bytes(scene, in->plan), in->solids->of_triangle},
     };
     TRY_OR(cleanup, status,
@@ -214,6 +231,9 @@ static glint_status upload_materials(const glint_upload_inputs *in, glint_geomet
 cleanup:
     free(materials);
     free(media);
+    if (attributes != scene->attributes) {
+        free(attributes);
+    }
     return status;
 }
 

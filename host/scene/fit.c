@@ -61,9 +61,8 @@ static void add_corners(fit_extremes *extremes, glint_vec3 low, glint_vec3 high)
 
 static void add_vertices(fit_extremes *extremes, const glint_scene *scene)
 {
-    for (size_t i = 0; i < 3 * scene->triangle_count; i++) {
-        const float *stored = scene->positions + 3 * i;
-        const glint_vec3 relative = {(double)stored[0], (double)stored[1], (double)stored[2]};
+    for (size_t i = 0; i < glint_scene_vertex_count(scene); i++) {
+        const glint_vec3 relative = glint_vec3_from_floats(scene->positions + 3 * i);
         add_point(extremes, glint_vec3_add(scene->origin, glint_vec3_scale(relative, scene->unit)));
     }
 }

@@ -49,6 +49,7 @@ void glint_scene_free(glint_scene *scene)
     }
     free(scene->usages);
     free(scene->path);
+    free(scene->indices);
     free(scene->positions);
     free(scene->normals);
     free(scene->attributes);
@@ -63,19 +64,28 @@ void glint_scene_free(glint_scene *scene)
     *scene = (glint_scene){0};
 }
 
-void glint_scene_round_positions(glint_scene *scene)
+static bool resize(float **array, size_t stride, size_t vertices)
 {
-    const glint_parts *parts = &scene->parts;
-    for (size_t i = 0; parts->count > 0 && i < 9 * scene->triangle_count; i++) {
-        scene->positions[i] = parts->anchors[parts->part_of[i / 9]][i % 3] + parts->positions[i];
+    float *resized = *array;
+    if (resized != NULL && stride > 0 && vertices > 0) {
+        resized = realloc(resized, stride * vertices * sizeof *resized);
+        *array = resized != NULL ? resized : *array;
     }
+    return resized != NULL || *array == NULL;
+}
+
+bool glint_scene_resize_vertices(glint_scene *scene, size_t vertices)
+{
+    return resize(&scene->positions, 3, vertices) && resize(&scene->normals, 3, vertices) &&
+           resize(&scene->parts.positions, 3, vertices) &&
+           resize(&scene->attributes, glint_attributes_stride(&scene->attribute_set), vertices);
 }
 
 void glint_scene_find_bounds(glint_scene *scene)
 {
     const double origin[3] = {scene->origin.x, scene->origin.y, scene->origin.z};
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    for (size_t i = 0; i < 9 * scene->triangle_count; i++) {
+    for (size_t i = 0; i < 3 * glint_scene_vertex_count(scene); i++) {
         double value = origin[i % 3] + (double)scene->positions[i] * scene->unit;
         low[i % 3] = fmin(low[i % 3], value);
         high[i % 3] = fmax(high[i % 3], value);

@@ -74,18 +74,21 @@ typedef struct glint_scene {
     glint_vec3 low, high; // bounds, metres, world space; low > high if there is no triangle
 
     size_t triangle_count;
-    // [triangle_count][3 vertices][3], owned. They wind counter-clockwise seen from outside. If a
-    // node mirrors, the winding is swapped, as glTF requires.
-    float *positions;
-    // The same shape, unit, owned; NULL if no primitive has normals. (0, 0, 0) for a vertex without
-    // a usable normal: the geometric normal serves there.
+    // [triangle_count][3], the triangles' vertices; owned. They wind counter-clockwise seen from
+    // outside. If a node mirrors, the winding is swapped, as glTF requires. A vertex belongs to
+    // triangles of one instance and one part, and to at least one. NULL: corner c of triangle t is
+    // vertex 3 t + c.
+    uint32_t *indices;
+    size_t vertex_count; // with indices; see glint_scene_vertex_count
+    float *positions;    // [vertex][3], owned
+    // [vertex][3], unit, owned; NULL if no primitive has normals. (0, 0, 0) for a vertex without a
+    // usable normal: the geometric normal serves there.
     float *normals;
     uint32_t *material_of; // [triangle_count], index into materials
     // The digits of small parts that `positions` cannot hold, see glint_scene_corner; owned.
     glint_parts parts;
 
-    // The vertices' other attributes: per triangle three corners, each of glint_attributes_stride
-    // floats. NULL: none.
+    // The vertices' other attributes: [vertex][glint_attributes_stride]. NULL: none.
     float *attributes; // owned
     glint_attributes attribute_set;
     // Textures that the materials name; NULL: none. The scene is one of their owners.
@@ -129,32 +132,60 @@ static inline bool glint_instance_is_solid(const glint_scene *scene, const glint
     return glint_material_lobes(&scene->materials[instance->material]).solid;
 }
 
-// Returns the corners, [triangle_count][3 vertices][3]: relative to their parts' anchors if there
-// are parts, else `positions`.
-static inline const float *glint_scene_told(const glint_scene *scene)
+static inline size_t glint_scene_vertex_count(const glint_scene *scene)
 {
-    return scene->parts.count > 0 ? scene->parts.positions : scene->positions;
+    return scene->indices != NULL ? scene->vertex_count : 3 * scene->triangle_count;
+}
+
+// Returns the vertex at corner 0, 1 or 2 of a triangle.
+static inline size_t glint_scene_vertex(const glint_scene *scene, size_t triangle, size_t corner)
+{
+    const size_t at = 3 * triangle + corner;
+    return scene->indices != NULL ? scene->indices[at] : at;
+}
+
+// Returns a corner's position, 3 floats in stored coordinates.
+static inline const float *glint_scene_position(const glint_scene *scene, size_t triangle,
+                                                size_t corner)
+{
+    return scene->positions + 3 * glint_scene_vertex(scene, triangle, corner);
+}
+
+// Returns a corner's normal, 3 floats. Only for scenes with normals.
+static inline const float *glint_scene_normal(const glint_scene *scene, size_t triangle,
+                                              size_t corner)
+{
+    return scene->normals + 3 * glint_scene_vertex(scene, triangle, corner);
+}
+
+// Returns a corner's position relative to its part's anchor if there are parts, else its position.
+static inline const float *glint_scene_told(const glint_scene *scene, size_t triangle,
+                                            size_t corner)
+{
+    const float *told = scene->parts.count > 0 ? scene->parts.positions : scene->positions;
+    return told + 3 * glint_scene_vertex(scene, triangle, corner);
 }
 
 // Returns a corner in stored coordinates, with all digits; `positions` are rounded to floats.
-static inline glint_vec3 glint_scene_corner(const glint_scene *scene, size_t triangle, int corner)
+static inline glint_vec3 glint_scene_corner(const glint_scene *scene, size_t triangle,
+                                            size_t corner)
 {
     const glint_parts *parts = &scene->parts;
-    const float *p = glint_scene_told(scene) + 9 * triangle + 3 * (size_t)corner;
+    const float *p = glint_scene_told(scene, triangle, corner);
     if (parts->count == 0) {
-        return (glint_vec3){(double)p[0], (double)p[1], (double)p[2]};
+        return glint_vec3_from_floats(p);
     }
-    const float *a = parts->anchors[parts->part_of[triangle]];
-    return (glint_vec3){(double)a[0] + (double)p[0], (double)a[1] + (double)p[1],
-                        (double)a[2] + (double)p[2]};
+    return glint_vec3_add(glint_vec3_from_floats(parts->anchors[parts->part_of[triangle]]),
+                          glint_vec3_from_floats(p));
 }
 
-// Returns the bytes of the arrays of `triangles` triangles.
-static inline size_t glint_scene_bytes(size_t triangles, bool with_normals,
+// Returns the bytes of a scene's arrays.
+static inline size_t glint_scene_bytes(size_t triangles, size_t vertices, bool with_normals,
                                        const glint_attributes *set)
 {
-    return triangles * (9 * sizeof(float) * (with_normals ? 2 : 1) +
-                        3 * sizeof(float) * glint_attributes_stride(set) + sizeof(uint32_t));
+    const size_t indices = vertices < 3 * triangles ? 3 : 0;
+    return triangles * (1 + indices) * sizeof(uint32_t) +
+           vertices * ((with_normals ? 6 : 3) + glint_attributes_stride(set)) * sizeof(float);
 }
 
 typedef struct glint_scene_options {
@@ -212,8 +243,9 @@ void glint_scene_close(glint_scene_source *source); // NULL is allowed
 // animation.
 void glint_scene_shown_bounds(const glint_scene *scene, glint_vec3 *low, glint_vec3 *high);
 
-// Sets `positions` to the rounded positions of the parts. Without parts nothing changes.
-void glint_scene_round_positions(glint_scene *scene);
+// Gives the vertices' arrays room for `vertices` vertices, or takes room away. Returns false if
+// memory is short; the arrays are then valid, some with the old room.
+bool glint_scene_resize_vertices(glint_scene *scene, size_t vertices);
 
 // Sets the bounds from the triangles.
 void glint_scene_find_bounds(glint_scene *scene);

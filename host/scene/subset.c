@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define NO_VERTEX 0xFFFFFFFFu
+
 // True if an instance belongs to a node or to a node below it. `name` names the node; if it is
 // NULL, its index counts.
 static bool stands_under(const glint_scene *scene, const glint_instance *instance, const char *name,
@@ -111,11 +113,10 @@ static void find_bounds(const glint_scene *scene, const bool *is_marked, bool wa
     *high = (glint_vec3){-INFINITY, -INFINITY, -INFINITY};
     for (size_t i = 0; i < scene->instance_count; i++) {
         const glint_instance *instance = &scene->instances[i];
-        const float *p = scene->positions + 9 * instance->first_triangle;
         for (size_t v = 0; is_marked[i] == wanted && v < 3 * instance->triangle_count; v++) {
-            const glint_vec3 at = {scene->origin.x + unit * (double)p[3 * v],
-                                   scene->origin.y + unit * (double)p[3 * v + 1],
-                                   scene->origin.z + unit * (double)p[3 * v + 2]};
+            const glint_vec3 stored = glint_vec3_from_floats(
+                glint_scene_position(scene, instance->first_triangle + v / 3, v % 3));
+            const glint_vec3 at = glint_vec3_add(scene->origin, glint_vec3_scale(stored, unit));
             *low = (glint_vec3){fmin(low->x, at.x), fmin(low->y, at.y), fmin(low->z, at.z)};
             *high = (glint_vec3){fmax(high->x, at.x), fmax(high->y, at.y), fmax(high->z, at.z)};
         }
@@ -147,42 +148,83 @@ static void drop_materials(glint_scene *scene, uint32_t *place)
     }
 }
 
+// Moves floats of vertices to the vertices' new numbers.
+static void move_floats(float *floats, size_t stride, const uint32_t *number, size_t count)
+{
+    for (size_t v = 0; floats != NULL && v < count; v++) {
+        if (number[v] != NO_VERTEX) {
+            memmove(floats + stride * number[v], floats + stride * v, stride * sizeof *floats);
+        }
+    }
+}
+
+// Numbers the vertices of the instances that stay, in their order. The others get NO_VERTEX.
+// Returns the number of vertices that stay.
+static size_t number_vertices(const glint_scene *scene, const bool *is_marked, bool unwanted,
+                              uint32_t *number)
+{
+    const size_t count = glint_scene_vertex_count(scene);
+    size_t kept = 0;
+    memset(number, 0xFF, count * sizeof *number);
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        const glint_instance *instance = &scene->instances[i];
+        for (size_t v = 0; is_marked[i] != unwanted && v < 3 * instance->triangle_count; v++) {
+            number[glint_scene_vertex(scene, instance->first_triangle + v / 3, v % 3)] = 0;
+        }
+    }
+    for (size_t v = 0; v < count; v++) {
+        number[v] = number[v] != NO_VERTEX ? (uint32_t)kept++ : NO_VERTEX;
+    }
+    return kept;
+}
+
+static void drop_vertices(glint_scene *scene, const uint32_t *number, size_t kept)
+{
+    const size_t count = glint_scene_vertex_count(scene);
+    move_floats(scene->positions, 3, number, count);
+    move_floats(scene->normals, 3, number, count);
+    move_floats(scene->parts.positions, 3, number, count);
+    move_floats(scene->attributes, glint_attributes_stride(&scene->attribute_set), number, count);
+    scene->vertex_count = scene->indices != NULL ? kept : 0;
+}
+
+static void move_triangles(glint_scene *scene, size_t to, size_t from, size_t count,
+                           const uint32_t *number)
+{
+    memmove(scene->material_of + to, scene->material_of + from, count * sizeof *scene->material_of);
+    if (scene->parts.count > 0) {
+        memmove(scene->parts.part_of + to, scene->parts.part_of + from,
+                count * sizeof *scene->parts.part_of);
+    }
+    for (size_t i = 0; scene->indices != NULL && i < 3 * count; i++) {
+        scene->indices[3 * to + i] = number[scene->indices[3 * from + i]];
+    }
+}
+
 // Removes the instances whose mark is `unwanted`, and closes the gaps. Instances stand in the order
-// of their triangles.
-static void drop(glint_scene *scene, const bool *is_marked, bool unwanted)
+// of their triangles. Returns false, and changes nothing, if memory is short.
+static bool drop(glint_scene *scene, const bool *is_marked, bool unwanted)
 {
     size_t triangles = 0, kept = 0;
+    uint32_t *number = glint_allocate_unset(glint_scene_vertex_count(scene), sizeof *number);
+    if (number == NULL) {
+        return false;
+    }
+    drop_vertices(scene, number, number_vertices(scene, is_marked, unwanted, number));
     for (size_t i = 0; i < scene->instance_count; i++) {
         glint_instance instance = scene->instances[i];
-        const size_t from = instance.first_triangle, count = instance.triangle_count;
-        if (is_marked[i] == unwanted) {
-            continue;
+        if (is_marked[i] != unwanted) {
+            move_triangles(scene, triangles, instance.first_triangle, instance.triangle_count,
+                           number);
+            instance.first_triangle = triangles;
+            scene->instances[kept++] = instance;
+            triangles += instance.triangle_count;
         }
-        memmove(scene->positions + 9 * triangles, scene->positions + 9 * from,
-                9 * count * sizeof *scene->positions);
-        if (scene->normals != NULL) {
-            memmove(scene->normals + 9 * triangles, scene->normals + 9 * from,
-                    9 * count * sizeof *scene->normals);
-        }
-        if (scene->attributes != NULL) {
-            const size_t floats = 3 * glint_attributes_stride(&scene->attribute_set);
-            memmove(scene->attributes + floats * triangles, scene->attributes + floats * from,
-                    floats * count * sizeof *scene->attributes);
-        }
-        if (scene->parts.count > 0) {
-            memmove(scene->parts.positions + 9 * triangles, scene->parts.positions + 9 * from,
-                    9 * count * sizeof *scene->parts.positions);
-            memmove(scene->parts.part_of + triangles, scene->parts.part_of + from,
-                    count * sizeof *scene->parts.part_of);
-        }
-        memmove(scene->material_of + triangles, scene->material_of + from,
-                count * sizeof *scene->material_of);
-        instance.first_triangle = triangles;
-        scene->instances[kept++] = instance;
-        triangles += count;
     }
     scene->instance_count = kept;
     scene->triangle_count = triangles;
+    free(number);
+    return true;
 }
 
 // Removes the nodes of a list, or all others.
@@ -196,8 +238,11 @@ static glint_status part(glint_scene *scene, const char *nodes, bool keeps, glin
     glint_status status;
     TRY_OR(cleanup, status, mark_nodes(scene, nodes, &is_marked, error));
     find_bounds(scene, is_marked, keeps, &scene->low, &scene->high);
-    drop(scene, is_marked, !keeps);
-    drop_materials(scene, place);
+    if (drop(scene, is_marked, !keeps)) {
+        drop_materials(scene, place);
+    } else {
+        status = glint_fail_memory(error, "the scene's vertices");
+    }
 cleanup:
     free(place);
     free(is_marked);

@@ -59,8 +59,8 @@ static void random_target(trial *t, const glint_scene *scene, bool at_vertex, do
 {
     const size_t number = (size_t)(glint_random_number(&t->random) * (double)scene->triangle_count);
     const int edge = (int)(3 * glint_random_number(&t->random));
-    const glint_vec3 a = glint_scene_corner(scene, number, edge);
-    const glint_vec3 b = glint_scene_corner(scene, number, (edge + 1) % 3);
+    const glint_vec3 a = glint_scene_corner(scene, number, (size_t)edge);
+    const glint_vec3 b = glint_scene_corner(scene, number, (size_t)(edge + 1) % 3);
     const double share = at_vertex ? 0 : glint_random_number(&t->random);
     const glint_vec3 on_edge =
         glint_vec3_add(a, glint_vec3_scale(glint_vec3_subtract(b, a), share));

@@ -11,11 +11,14 @@
 static void copy_triangle(const glint_scene *scene, size_t i, oracle_triangle *t)
 {
     const double origin[3] = {scene->origin.x, scene->origin.y, scene->origin.z};
-    for (size_t v = 0; v < 9; v++) {
-        const glint_vec3 corner = glint_scene_corner(scene, i, (int)(v / 3));
+    for (size_t v = 0; v < 3; v++) {
+        const glint_vec3 corner = glint_scene_corner(scene, i, v);
         const double at[3] = {corner.x, corner.y, corner.z};
-        t->position[v / 3][v % 3] = origin[v % 3] + scene->unit * at[v % 3];
-        t->normal[v / 3][v % 3] = scene->normals != NULL ? (double)scene->normals[9 * i + v] : 0;
+        for (size_t k = 0; k < 3; k++) {
+            t->position[v][k] = origin[k] + scene->unit * at[k];
+            t->normal[v][k] =
+                scene->normals != NULL ? (double)glint_scene_normal(scene, i, v)[k] : 0;
+        }
     }
     t->material = (int)scene->material_of[i];
 }
@@ -29,14 +32,13 @@ static const float *copy_numbers(const float *from, size_t count, double *to)
 }
 
 // Returns the attributes of the next corner.
-static const float *copy_corner(const glint_attributes *set, const float *from,
-                                oracle_corner *corner)
+static void copy_corner(const glint_attributes *set, const float *from, oracle_corner *corner)
 {
     *corner = (oracle_corner){.color = {1, 1, 1, 1}};
     from = copy_numbers(from, set->texcoords ? 2 : 0, corner->texcoord[0]);
     from = copy_numbers(from, set->second_texcoords ? 2 : 0, corner->texcoord[1]);
     from = copy_numbers(from, set->colors ? 4 : 0, corner->color);
-    return copy_numbers(from, set->tangents ? 4 : 0, corner->tangent);
+    copy_numbers(from, set->tangents ? 4 : 0, corner->tangent);
 }
 
 static bool copy_image(const glint_textures *textures, size_t number, oracle_image *image)
@@ -199,11 +201,13 @@ static bool make_room(const glint_scene *scene, judge *j)
 
 static void copy_scene(const glint_scene *scene, judge *j)
 {
-    const float *attributes = scene->attributes;
+    const size_t stride = glint_attributes_stride(&scene->attribute_set);
     for (size_t i = 0; i < scene->triangle_count; i++) {
         copy_triangle(scene, i, &j->triangles[i]);
-        for (int k = 0; attributes != NULL && k < 3; k++) {
-            attributes = copy_corner(&scene->attribute_set, attributes, &j->corners[i][k]);
+        for (size_t k = 0; scene->attributes != NULL && k < 3; k++) {
+            copy_corner(&scene->attribute_set,
+                        scene->attributes + stride * glint_scene_vertex(scene, i, k),
+                        &j->corners[i][k]);
         }
     }
     for (size_t i = 0; i < scene->material_count; i++) {

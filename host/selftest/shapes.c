@@ -184,6 +184,27 @@ glint_status shape_end_with_unit(shape *s, double unit, glint_scene *scene, glin
     return GLINT_OK;
 }
 
+static glint_status find_parts(const double *exact, glint_scene *scene, glint_error *error)
+{
+    const size_t corners = 3 * scene->triangle_count;
+    const glint_exact_triangles triangles = {exact, corners, NULL, scene->triangle_count};
+    glint_parts *parts = &scene->parts;
+    TRY(glint_parts_find(&triangles, parts, error));
+    if (parts->count == 0) {
+        return GLINT_OK;
+    }
+    parts->positions = glint_allocate_unset(corners, 3 * sizeof *parts->positions);
+    if (parts->positions == NULL) {
+        return glint_fail_memory(error, "a scene");
+    }
+    for (size_t i = 0; i < corners; i++) {
+        float *told = parts->positions + 3 * i;
+        glint_parts_tell(parts, parts->part_of[i / 3], exact + 3 * i, told);
+        glint_parts_round(parts, parts->part_of[i / 3], told, scene->positions + 3 * i);
+    }
+    return GLINT_OK;
+}
+
 glint_status shape_end_with_parts(shape *s, double unit, glint_scene *scene, double **exact,
                                   glint_error *error)
 {
@@ -191,10 +212,7 @@ glint_status shape_end_with_parts(shape *s, double unit, glint_scene *scene, dou
     s->exact = NULL;
     glint_status status = shape_end_with_unit(s, unit, scene, error);
     if (status == GLINT_OK) {
-        const glint_exact_triangles exact_triangles = {own, 3 * scene->triangle_count, NULL,
-                                                       scene->triangle_count};
-        status = glint_parts_find(&exact_triangles, &scene->parts, error);
-        glint_scene_round_positions(scene);
+        status = find_parts(own, scene, error);
     }
     if (status != GLINT_OK) {
         glint_scene_free(scene);

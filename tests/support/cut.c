@@ -66,12 +66,17 @@ static void add_triangle(cutting *c, size_t t)
     glint_scene *to = &c->to;
     const size_t n = to->triangle_count++;
     c->origin[n] = t;
-    memcpy(to->positions + 9 * n, from->positions + 9 * t, 9 * sizeof(float));
-    if (from->normals != NULL) {
-        memcpy(to->normals + 9 * n, from->normals + 9 * t, 9 * sizeof(float));
+    for (size_t k = 0; k < 3; k++) {
+        const size_t corner = 9 * n + 3 * k, triple = 3 * sizeof(float);
+        memcpy(to->positions + corner, glint_scene_position(from, t, k), triple);
+        if (from->normals != NULL) {
+            memcpy(to->normals + corner, glint_scene_normal(from, t, k), triple);
+        }
+        if (from->parts.count > 0) {
+            memcpy(to->parts.positions + corner, glint_scene_told(from, t, k), triple);
+        }
     }
     if (from->parts.count > 0) {
-        memcpy(to->parts.positions + 9 * n, from->parts.positions + 9 * t, 9 * sizeof(float));
         to->parts.part_of[n] = from->parts.part_of[t];
     }
     to->material_of[n] = to->instances[to->instance_count].material;

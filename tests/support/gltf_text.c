@@ -1,5 +1,6 @@
 // Writes glTF files for tests. See gltf_text.h.
 #include "support/gltf_text.h"
+#include "support/by_corner.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -149,6 +150,13 @@ glint_scene load_tetrahedron(const char *folder, const char *rest)
     char joined[4096];
     snprintf(joined, sizeof joined, TETRAHEDRON ",%s", rest);
     return load_rest(folder, &the_tetrahedron, sizeof the_tetrahedron, joined);
+}
+
+glint_scene load_by_corner(const char *folder, const void *bytes, size_t size, const char *rest)
+{
+    glint_scene scene = load_rest(folder, bytes, size, rest);
+    scene_by_corner(&scene);
+    return scene;
 }
 
 bool any_warning_has(const glint_warnings *warnings, const char *part)

@@ -30,6 +30,9 @@ glint_status load_text(const char *folder, const char *text, glint_scene *scene,
 // gltf_text and load_text; asserts success.
 glint_scene load_rest(const char *folder, const void *bytes, size_t size, const char *rest);
 
+// Does the same, and gives each corner a vertex of its own (by_corner.h).
+glint_scene load_by_corner(const char *folder, const void *bytes, size_t size, const char *rest);
+
 bool any_warning_has(const glint_warnings *warnings, const char *part);
 
 // A tetrahedron of unit legs at the origin, counter-clockwise from outside. Accessor 0: positions,

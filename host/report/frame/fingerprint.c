@@ -137,18 +137,18 @@ static void add_scene(XXH3_state_t *state, const glint_scene *scene)
     add_numbers(state, &scene->unit, 1);
     const double moves = scene->moves ? 1 : 0; // the plan depends on it
     add_numbers(state, &moves, 1);
-    add_array(state, scene->positions, 9 * sizeof *scene->positions, scene->triangle_count);
+    const size_t vertices = glint_scene_vertex_count(scene);
+    add_array(state, scene->indices, 3 * sizeof *scene->indices, scene->triangle_count);
+    add_array(state, scene->positions, 3 * sizeof *scene->positions, vertices);
     if (scene->parts.count > 0) {
         add_array(state, scene->parts.anchors, sizeof *scene->parts.anchors, scene->parts.count);
         add_array(state, scene->parts.part_of, sizeof *scene->parts.part_of, scene->triangle_count);
-        add_array(state, scene->parts.positions, 9 * sizeof *scene->parts.positions,
-                  scene->triangle_count);
+        add_array(state, scene->parts.positions, 3 * sizeof *scene->parts.positions, vertices);
     }
-    add_array(state, scene->normals, 9 * sizeof *scene->normals, scene->triangle_count);
+    add_array(state, scene->normals, 3 * sizeof *scene->normals, vertices);
     add_array(state, scene->material_of, sizeof *scene->material_of, scene->triangle_count);
     add_array(state, scene->attributes,
-              3 * glint_attributes_stride(&scene->attribute_set) * sizeof *scene->attributes,
-              scene->triangle_count);
+              glint_attributes_stride(&scene->attribute_set) * sizeof *scene->attributes, vertices);
     add_textures(state, scene->textures);
     for (size_t i = 0; i < scene->material_count; i++) {
         add_material(state, &scene->materials[i]);

@@ -17,7 +17,7 @@ static const glint_used_material *material_of(const glint_load *load,
     return &load->materials[primitive->material < 0 ? count : (size_t)primitive->material];
 }
 
-// Each function returns the place of the next attribute.
+// Returns the place of the next attribute.
 static float *store_texcoords(glint_load *load, const glint_primitive *primitive, int set,
                               size_t vertex, float *stored)
 {
@@ -35,7 +35,8 @@ static float *store_texcoords(glint_load *load, const glint_primitive *primitive
     return stored + 2;
 }
 
-// Stores 1 if the material uses no colours: an override may have removed them.
+// Stores 1 if the material uses no colours: an override may have removed them. Returns the place of
+// the next attribute.
 static float *store_color(glint_load *load, const glint_primitive *primitive, size_t vertex,
                           float *stored)
 {
@@ -55,7 +56,7 @@ static float *store_color(glint_load *load, const glint_primitive *primitive, si
 
 // Stores zeros if the file has no usable tangent. Tangents of a morphed or skinned mesh do not fit
 // any more and are computed anew.
-static float *store_tangent(const glint_draw *draw, size_t vertex, float *stored)
+static void store_tangent(const glint_draw *draw, size_t vertex, float *stored)
 {
     double t[4] = {0, 0, 0, 0};
     if (draw->primitive->tangents.count > 0 && draw->shape == NULL) {
@@ -70,7 +71,6 @@ static float *store_tangent(const glint_draw *draw, size_t vertex, float *stored
     stored[1] = (float)world.y;
     stored[2] = (float)world.z;
     stored[3] = !is_usable ? 0.0F : (t[3] < 0) != is_mirrored ? -1.0F : 1.0F;
-    return stored + 4;
 }
 
 glint_attributes glint_attributes_needed(const glint_load *load)
@@ -95,22 +95,19 @@ glint_attributes glint_attributes_needed(const glint_load *load)
     return set;
 }
 
-void glint_attributes_store(glint_load *load, const glint_draw *draw, const glint_corners *corners,
+void glint_attributes_store(glint_load *load, const glint_draw *draw, size_t vertex,
                             const glint_attributes *set, float *stored)
 {
-    for (int c = 0; c < 3; c++) {
-        const size_t vertex = corners->of[c].vertex;
-        if (set->texcoords) {
-            stored = store_texcoords(load, draw->primitive, 0, vertex, stored);
-        }
-        if (set->second_texcoords) {
-            stored = store_texcoords(load, draw->primitive, 1, vertex, stored);
-        }
-        if (set->colors) {
-            stored = store_color(load, draw->primitive, vertex, stored);
-        }
-        if (set->tangents) {
-            stored = store_tangent(draw, vertex, stored);
-        }
+    if (set->texcoords) {
+        stored = store_texcoords(load, draw->primitive, 0, vertex, stored);
+    }
+    if (set->second_texcoords) {
+        stored = store_texcoords(load, draw->primitive, 1, vertex, stored);
+    }
+    if (set->colors) {
+        stored = store_color(load, draw->primitive, vertex, stored);
+    }
+    if (set->tangents) {
+        store_tangent(draw, vertex, stored);
     }
 }

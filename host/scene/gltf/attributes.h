@@ -7,9 +7,9 @@
 // Returns the attributes of the drawn primitives that the materials in use need.
 glint_attributes glint_attributes_needed(const glint_load *load);
 
-// Stores the attributes of a triangle in the order of `set`, [3][stride] floats. Replaces values
-// that are not finite, and tallies them.
-void glint_attributes_store(glint_load *load, const glint_draw *draw, const glint_corners *corners,
+// Stores the attributes of a vertex of the file in the order of `set`, [stride] floats. Replaces
+// values that are not finite, and tallies them.
+void glint_attributes_store(glint_load *load, const glint_draw *draw, size_t vertex,
                             const glint_attributes *set, float *stored);
 
 #endif

@@ -33,7 +33,8 @@ static double least_of_vertices(const glint_scene *scene, uint32_t number)
     double least = 1;
     for (size_t t = 0; t < scene->triangle_count; t++) {
         for (size_t c = 0; scene->material_of[t] == number && c < 3; c++) {
-            least = fmin(least, (double)scene->attributes[(3 * t + c) * stride + alpha]);
+            const size_t vertex = glint_scene_vertex(scene, t, c);
+            least = fmin(least, (double)scene->attributes[vertex * stride + alpha]);
         }
     }
     return least;

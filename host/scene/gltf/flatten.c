@@ -11,18 +11,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A scene of this size takes 10 GiB; indices of its floats stay below 2^31.
+// A scene of this size takes up to 10 GiB; indices of its floats stay below 2^31.
 static const size_t most_triangles = (size_t)1 << 27;
 // Memory of the search for small parts, bytes per triangle. If memory is short, there is no search,
 // and all positions are stored relative to the scene's origin.
 static const size_t bytes_of_search = 320;
 
+// The vertex that stands for a place of the current draw.
+typedef struct known_vertex {
+    uint32_t number; // 1 + its number in the scene; at most `first`: it is one of another draw
+    uint32_t part;
+} known_vertex;
+
 typedef struct scene_writer {
     glint_load *load;
     glint_scene *scene;
-    size_t taken; // triangles taken from the parts, including those without area
+    size_t taken;        // triangles that were looked at, those without area too
+    known_vertex *known; // [place of a draw]
+    size_t first;        // vertices of the draws before
     float low[3], high[3];
 } scene_writer;
+
+// What the vertices of a draw share.
+typedef struct draw_writer {
+    const glint_draw *draw;
+    uint32_t material;
+    glint_vec3 turned[3]; // the normals of the axes
+} draw_writer;
 
 // ---- Storing ------------------------------------------------------------------------------------
 
@@ -32,94 +47,133 @@ static glint_vec3 stored_place(const glint_scene *scene, const glint_draw *draw,
     return glint_vec3_scale(glint_vec3_subtract(world, scene->origin), 1 / scene->unit);
 }
 
-// Stores a triangle's positions from the parts, for the next triangle in them. Returns false if it
-// has no area.
-static bool take_from_part(scene_writer *writer, float *p)
+static float *told_at(const glint_scene *scene, size_t vertex)
 {
-    glint_parts *parts = &writer->scene->parts;
-    const size_t from = writer->taken++, to = writer->scene->triangle_count;
-    memmove(parts->positions + 9 * to, parts->positions + 9 * from, 9 * sizeof(float));
-    parts->part_of[to] = parts->part_of[from];
-    for (int k = 0; k < 9; k++) {
-        p[k] = parts->anchors[parts->part_of[to]][k % 3] + parts->positions[9 * to + (size_t)k];
-    }
-    return glint_triangle_has_area(parts->positions + 9 * to);
+    return (scene->parts.count > 0 ? scene->parts.positions : scene->positions) + 3 * vertex;
 }
 
-// Does the same from the corners if there are no parts.
-static bool store_positions(scene_writer *writer, const glint_draw *draw,
-                            const glint_corners *corners, float *p)
+static known_vertex *known_at(const scene_writer *writer, const glint_draw *draw,
+                              const glint_corner *corner)
 {
-    if (writer->scene->parts.count > 0) {
-        return take_from_part(writer, p);
-    }
-    for (int c = 0; c < 3; c++) {
-        const glint_vec3 stored = stored_place(writer->scene, draw, corners->of[c].local);
-        p[3 * c] = (float)stored.x;
-        p[3 * c + 1] = (float)stored.y;
-        p[3 * c + 2] = (float)stored.z;
-    }
-    return glint_triangle_has_area(p);
+    return &writer->known[draw->shape != NULL ? corner->element : corner->vertex];
 }
 
-// glint_vec3_normalize turns normals that are zero, NaN or infinite into (0, 0, 0). `turned` holds
-// the axes' normals.
-static void store_normals(const glint_draw *draw, const glint_corners *corners,
-                          const glint_vec3 turned[3], float *stored)
+static bool is_known(const scene_writer *writer, const known_vertex *known, uint32_t part)
+{
+    return known->number > writer->first && known->part == part;
+}
+
+// Sets the positions of a triangle's corners, relative to the anchor of its part.
+static void tell_corners(const scene_writer *writer, const glint_draw *draw,
+                         const glint_corners *corners, uint32_t part, float told[3][3])
 {
     for (int c = 0; c < 3; c++) {
-        double n[3];
-        if (draw->shape != NULL) {
-            const glint_vec3 moved = draw->shape->normals[corners->of[c].element];
-            n[0] = moved.x;
-            n[1] = moved.y;
-            n[2] = moved.z;
+        const glint_corner *corner = &corners->of[c];
+        const known_vertex *known = known_at(writer, draw, corner);
+        if (is_known(writer, known, part)) {
+            memcpy(told[c], told_at(writer->scene, known->number - 1), sizeof told[c]);
         } else {
-            glint_array_numbers(&draw->primitive->normals, corners->of[c].vertex, 3, n);
+            const glint_vec3 p = stored_place(writer->scene, draw, corner->local);
+            glint_parts_tell(&writer->scene->parts, part, (const double[3]){p.x, p.y, p.z},
+                             told[c]);
         }
-        glint_vec3 sum = glint_vec3_scale(turned[0], n[0]);
-        sum = glint_vec3_add(sum, glint_vec3_scale(turned[1], n[1]));
-        sum = glint_vec3_normalize(glint_vec3_add(sum, glint_vec3_scale(turned[2], n[2])));
-        stored[3 * c] = (float)sum.x;
-        stored[3 * c + 1] = (float)sum.y;
-        stored[3 * c + 2] = (float)sum.z;
     }
+}
+
+// glint_vec3_normalize turns normals that are zero, NaN or infinite into (0, 0, 0).
+static void store_normal(const draw_writer *of, const glint_corner *corner, float *stored)
+{
+    const glint_draw *draw = of->draw;
+    double n[3] = {0, 0, 0};
+    if (draw->primitive->normals.count > 0 && draw->shape != NULL) {
+        const glint_vec3 moved = draw->shape->normals[corner->element];
+        n[0] = moved.x;
+        n[1] = moved.y;
+        n[2] = moved.z;
+    } else if (draw->primitive->normals.count > 0) {
+        glint_array_numbers(&draw->primitive->normals, corner->vertex, 3, n);
+    }
+    glint_vec3 sum = glint_vec3_scale(of->turned[0], n[0]);
+    sum = glint_vec3_add(sum, glint_vec3_scale(of->turned[1], n[1]));
+    sum = glint_vec3_normalize(glint_vec3_add(sum, glint_vec3_scale(of->turned[2], n[2])));
+    stored[0] = (float)sum.x;
+    stored[1] = (float)sum.y;
+    stored[2] = (float)sum.z;
 }
 
 static void grow(scene_writer *writer, const float *p)
 {
-    for (int k = 0; k < 9; k++) {
-        float *low = &writer->low[k % 3], *high = &writer->high[k % 3];
-        *low = p[k] < *low ? p[k] : *low;
-        *high = p[k] > *high ? p[k] : *high;
+    for (int k = 0; k < 3; k++) {
+        writer->low[k] = p[k] < writer->low[k] ? p[k] : writer->low[k];
+        writer->high[k] = p[k] > writer->high[k] ? p[k] : writer->high[k];
     }
+}
+
+// Returns the number of the new vertex.
+static uint32_t write_vertex(scene_writer *writer, const draw_writer *of,
+                             const glint_corner *corner, uint32_t part, const float told[3])
+{
+    glint_scene *scene = writer->scene;
+    const size_t vertex = scene->vertex_count++;
+    const size_t stride = glint_attributes_stride(&scene->attribute_set);
+    float *position = scene->positions + 3 * vertex;
+    memcpy(told_at(scene, vertex), told, 3 * sizeof *told);
+    glint_parts_round(&scene->parts, part, told, position);
+    grow(writer, position);
+    if (scene->normals != NULL) {
+        store_normal(of, corner, scene->normals + 3 * vertex);
+    }
+    if (scene->attributes != NULL) {
+        glint_attributes_store(writer->load, of->draw, corner->vertex, &scene->attribute_set,
+                               scene->attributes + stride * vertex);
+    }
+    return (uint32_t)vertex;
+}
+
+// Writes a triangle that is not collapsed, unless it has no area.
+static void write_triangle(scene_writer *writer, const draw_writer *of,
+                           const glint_corners *corners)
+{
+    glint_scene *scene = writer->scene;
+    const size_t triangle = scene->triangle_count;
+    const bool about_parts = scene->parts.count > 0;
+    const uint32_t part = about_parts ? scene->parts.part_of[writer->taken] : 0;
+    float told[3][3];
+    writer->taken++;
+    tell_corners(writer, of->draw, corners, part, told);
+    if (!glint_triangle_has_area(told[0], told[1], told[2])) {
+        scene->degenerate_triangles++;
+        return;
+    }
+    for (size_t c = 0; c < 3; c++) {
+        known_vertex *known = known_at(writer, of->draw, &corners->of[c]);
+        if (!is_known(writer, known, part)) {
+            known->number = write_vertex(writer, of, &corners->of[c], part, told[c]) + 1;
+            known->part = part;
+        }
+        scene->indices[3 * triangle + c] = known->number - 1;
+    }
+    if (about_parts) {
+        scene->parts.part_of[triangle] = part;
+    }
+    scene->material_of[scene->triangle_count++] = of->material;
 }
 
 static void write_draw(scene_writer *writer, const glint_draw *draw, uint32_t material)
 {
-    glint_scene *scene = writer->scene;
-    const glint_vec3 turned[3] = {
-        glint_mat4_normal(&draw->to_world, (glint_vec3){1, 0, 0}),
-        glint_mat4_normal(&draw->to_world, (glint_vec3){0, 1, 0}),
-        glint_mat4_normal(&draw->to_world, (glint_vec3){0, 0, 1}),
-    };
-    const size_t floats = 3 * glint_attributes_stride(&scene->attribute_set);
+    const draw_writer of = {draw,
+                            material,
+                            {glint_mat4_normal(&draw->to_world, (glint_vec3){1, 0, 0}),
+                             glint_mat4_normal(&draw->to_world, (glint_vec3){0, 1, 0}),
+                             glint_mat4_normal(&draw->to_world, (glint_vec3){0, 0, 1})}};
+    writer->first = writer->scene->vertex_count;
     for (size_t t = 0; t < draw->primitive->triangles; t++) {
         const glint_corners corners = glint_draw_corners(draw, t, glint_draw_winds_back(draw, t));
-        float *p = scene->positions + 9 * scene->triangle_count;
-        if (glint_corners_are_collapsed(&corners) || !store_positions(writer, draw, &corners, p)) {
-            scene->degenerate_triangles++;
-            continue;
+        if (glint_corners_are_collapsed(&corners)) {
+            writer->scene->degenerate_triangles++;
+        } else {
+            write_triangle(writer, &of, &corners);
         }
-        grow(writer, p);
-        if (draw->primitive->normals.count > 0) {
-            store_normals(draw, &corners, turned, scene->normals + 9 * scene->triangle_count);
-        }
-        if (scene->attributes != NULL) {
-            glint_attributes_store(writer->load, draw, &corners, &scene->attribute_set,
-                                   scene->attributes + floats * scene->triangle_count);
-        }
-        scene->material_of[scene->triangle_count++] = material;
     }
 }
 
@@ -167,20 +221,49 @@ static glint_status check_memory(size_t triangles, size_t bytes, glint_error *er
                             round((double)left / gib * 10) / 10);
 }
 
-static glint_status allocate(glint_scene *scene, size_t draws, size_t triangles, bool with_normals,
-                             glint_error *error)
+// Sizes of a scene's arrays.
+typedef struct scene_size {
+    size_t draws, triangles;
+    size_t vertices; // an upper bound
+    size_t places;   // of the draw that has the most
+    bool with_normals;
+} scene_size;
+
+static glint_status allocate(scene_writer *writer, const scene_size *size, glint_error *error)
 {
+    glint_scene *scene = writer->scene;
+    const size_t triple = 3 * sizeof(float), vertices = size->vertices;
     const size_t stride = glint_attributes_stride(&scene->attribute_set);
-    scene->positions = glint_allocate(triangles, 9 * sizeof(float));
-    scene->normals = with_normals ? glint_allocate(triangles, 9 * sizeof(float)) : NULL;
-    scene->attributes = stride > 0 ? glint_allocate(triangles, 3 * stride * sizeof(float)) : NULL;
-    scene->material_of = glint_allocate(triangles, sizeof *scene->material_of);
+    const bool about_parts = scene->parts.count > 0;
+    scene->indices = glint_allocate_unset(size->triangles, 3 * sizeof *scene->indices);
+    scene->material_of = glint_allocate_unset(size->triangles, sizeof *scene->material_of);
+    scene->positions = glint_allocate_unset(vertices, triple);
+    scene->normals = size->with_normals ? glint_allocate_unset(vertices, triple) : NULL;
+    scene->parts.positions = about_parts ? glint_allocate_unset(vertices, triple) : NULL;
+    scene->attributes = stride > 0 ? glint_allocate_unset(vertices, stride * sizeof(float)) : NULL;
     // One more: an instance begins before it is known whether any triangle of it remains.
-    scene->instances = glint_allocate(draws + 1, sizeof *scene->instances);
-    const bool is_whole = scene->positions != NULL && scene->material_of != NULL &&
-                          scene->instances != NULL && (!with_normals || scene->normals != NULL) &&
+    scene->instances = glint_allocate(size->draws + 1, sizeof *scene->instances);
+    writer->known = glint_allocate(size->places, sizeof *writer->known);
+    const bool is_whole = scene->indices != NULL && scene->material_of != NULL &&
+                          scene->positions != NULL && scene->instances != NULL &&
+                          writer->known != NULL &&
+                          (!size->with_normals || scene->normals != NULL) &&
+                          (!about_parts || scene->parts.positions != NULL) &&
                           (stride == 0 || scene->attributes != NULL);
     return is_whole ? GLINT_OK : glint_fail_memory(error, "the scene");
+}
+
+// Gives back the memory beyond the vertices; failing to do so does no harm. Drops indices that say
+// nothing.
+static void finish_arrays(glint_scene *scene)
+{
+    (void)glint_scene_resize_vertices(scene, scene->vertex_count);
+    if (scene->vertex_count ==
+        3 * scene->triangle_count) { // the corners are numbered in their order
+        free(scene->indices);
+        scene->indices = NULL;
+        scene->vertex_count = 0;
+    }
 }
 
 // The number of places that a draw's corners have: its vertices, or its corners if most vertices
@@ -288,41 +371,61 @@ static void finish_bounds(const scene_writer *writer)
 {
     glint_scene *scene = writer->scene;
     const float *low = writer->low, *high = writer->high;
-    const glint_vec3 from = {(double)low[0], (double)low[1], (double)low[2]};
-    const glint_vec3 to = {(double)high[0], (double)high[1], (double)high[2]};
+    const glint_vec3 from = glint_vec3_from_floats(low), to = glint_vec3_from_floats(high);
     scene->low = glint_vec3_add(scene->origin, glint_vec3_scale(from, scene->unit));
     scene->high = glint_vec3_add(scene->origin, glint_vec3_scale(to, scene->unit));
 }
 
+// Counts what the draws need. A vertex that lies in several parts is stored once for each.
+static scene_size measure(const glint_load *load, const glint_scene *scene)
+{
+    scene_size size = {.draws = load->draw_count};
+    for (size_t i = 0; i < load->draw_count; i++) {
+        const glint_draw *draw = &load->draws[i];
+        const glint_primitive *primitive = draw->primitive;
+        const bool is_per_corner = draw->shape != NULL && draw->shape->is_per_corner;
+        const size_t corners = 3 * primitive->triangles, vertices = primitive->positions.count;
+        const size_t places = is_per_corner ? corners : vertices;
+        size.triangles += primitive->triangles; // at most 2^22 draws of 2^40
+        size.vertices += places < corners && scene->parts.count == 0 ? places : corners;
+        size.places = places > size.places ? places : size.places;
+        size.with_normals = size.with_normals || primitive->normals.count > 0;
+    }
+    return size;
+}
+
 glint_status glint_flatten(glint_load *load, glint_scene *scene, glint_error *error)
 {
-    size_t triangles = 0;
-    bool with_normals = false;
-    for (size_t i = 0; i < load->draw_count; i++) {
-        const glint_primitive *primitive = load->draws[i].primitive;
-        triangles += primitive->triangles; // at most 2^22 draws of 2^40
-        with_normals = with_normals || primitive->normals.count > 0;
-    }
+    scene_size size = measure(load, scene);
     double smallest;
-    TRY(glint_flatten_check_count(triangles, error));
-    TRY(deform(load, with_normals, error));
+    TRY(glint_flatten_check_count(size.triangles, error));
+    TRY(deform(load, size.with_normals, error));
     TRY(glint_frame_choose(load, scene, &smallest, error));
     scene->attribute_set = glint_attributes_needed(load);
-    TRY(check_memory(triangles, glint_scene_bytes(triangles, with_normals, &scene->attribute_set),
-                     error));
+    TRY(check_memory(
+        size.triangles,
+        glint_scene_bytes(size.triangles, size.vertices, size.with_normals, &scene->attribute_set),
+        error));
     // Before the arrays take their memory.
     if (glint_parts_may_be_there(smallest) &&
-        bytes_of_search * triangles <= glint_free_memory() / 2) {
-        TRY(find_parts(load, triangles, scene, error));
+        bytes_of_search * size.triangles <= glint_free_memory() / 2) {
+        TRY(find_parts(load, size.triangles, scene, error));
+        size = measure(load, scene);
     }
-    TRY(allocate(scene, load->draw_count, triangles, with_normals, error));
-    scene_writer writer = {
-        load, scene, 0, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    write_draws(&writer);
-    finish_bounds(&writer);
-    glint_poses_clear(&load->poses); // their memory is free during rendering
-    free(load->draws);
-    load->draws = NULL;
-    load->draw_count = load->draw_capacity = 0;
-    return GLINT_OK;
+    scene_writer writer = {.load = load,
+                           .scene = scene,
+                           .low = {INFINITY, INFINITY, INFINITY},
+                           .high = {-INFINITY, -INFINITY, -INFINITY}};
+    const glint_status status = allocate(&writer, &size, error);
+    if (status == GLINT_OK) {
+        write_draws(&writer);
+        finish_arrays(scene);
+        finish_bounds(&writer);
+        glint_poses_clear(&load->poses); // their memory is free during rendering
+        free(load->draws);
+        load->draws = NULL;
+        load->draw_count = load->draw_capacity = 0;
+    }
+    free(writer.known);
+    return status;
 }

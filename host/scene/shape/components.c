@@ -124,8 +124,7 @@ static void measure_vertices(glint_components *all, size_t i)
 
 static glint_vec3 position_of(const glint_welding *weld, uint32_t corner)
 {
-    const float *p = glint_position_at(weld, corner);
-    return (glint_vec3){(double)p[0], (double)p[1], (double)p[2]};
+    return glint_vec3_from_floats(glint_position_at(weld, corner));
 }
 
 // The common apex of the pyramids whose volumes are added. The volume of an open component depends

@@ -277,14 +277,20 @@ static void grow_box(box *b, const float *low, const float *high)
     }
 }
 
+static box box_of_triangle(const glint_scene *scene, size_t triangle)
+{
+    box b = empty_box();
+    for (size_t i = 0; i < 3; i++) {
+        const float *p = glint_scene_position(scene, triangle, i);
+        grow_box(&b, p, p);
+    }
+    return b;
+}
+
 // The triangle's box, widened so that coinciding triangles' boxes meet.
 static box box_of(const search *s, uint32_t triangle)
 {
-    const float *p = s->scene->positions + (size_t)triangle * 9;
-    box b = empty_box();
-    for (int i = 0; i < 3; i++) {
-        grow_box(&b, p + (size_t)i * 3, p + (size_t)i * 3);
-    }
+    box b = box_of_triangle(s->scene, triangle);
     const glint_face f = glint_face_of(s->scene, triangle);
     const float margin = (float)glint_face_reach(&f, &f);
     for (int k = 0; k < 3; k++) {
@@ -335,22 +341,17 @@ static box bounds_of_solids(const glint_scene *scene, const glint_topology *topo
     return all;
 }
 
-// Lists the corners of triangles that may be near solids; `corners` may be NULL. Returns the number
-// of triangles.
-static size_t list_corners(const search *s, unsigned int *corners)
+// Lists the triangles that may be near solids; `triangles` may be NULL. Returns their number.
+static size_t list_triangles(const search *s, uint32_t *triangles)
 {
     const glint_scene *scene = s->scene;
     const box near = bounds_of_solids(scene, s->topology);
     size_t count = 0;
     for (size_t i = 0; i < scene->triangle_count; i++) {
-        box own = empty_box();
-        for (size_t k = 0; k < 3; k++) {
-            const float *p = scene->positions + 9 * i + 3 * k;
-            grow_box(&own, p, p);
-        }
+        const box own = box_of_triangle(scene, i);
         if (boxes_meet(&own, &near)) {
-            for (size_t k = 0; corners != NULL && k < 3; k++) {
-                corners[3 * count + k] = (unsigned int)(3 * i + k);
+            if (triangles != NULL) {
+                triangles[count] = (uint32_t)i;
             }
             count++;
         }
@@ -361,22 +362,30 @@ static size_t list_corners(const search *s, unsigned int *corners)
 // Sorts the triangles so that neighbours in space stand together.
 static bool sort_triangles(search *s)
 {
-    const glint_scene *scene = s->scene;
-    s->count = list_corners(s, NULL);
-    unsigned int *corners = glint_allocate(3 * s->count, sizeof *corners);
-    unsigned int *sorted = glint_allocate(3 * s->count, sizeof *sorted);
-    s->order = glint_allocate(s->count, sizeof *s->order);
-    const bool done = corners != NULL && sorted != NULL && s->order != NULL;
+    s->count = list_triangles(s, NULL);
+    uint32_t *near = glint_allocate_unset(s->count, sizeof *near);
+    unsigned int *place = glint_allocate_unset(s->count, sizeof *place);
+    float(*middles)[3] = glint_allocate_unset(s->count, sizeof *middles);
+    s->order = glint_allocate_unset(s->count, sizeof *s->order);
+    const bool done = near != NULL && place != NULL && middles != NULL && s->order != NULL;
     if (done) {
-        list_corners(s, corners);
-        meshopt_spatialSortTriangles(sorted, corners, 3 * s->count, scene->positions,
-                                     3 * scene->triangle_count, 3 * sizeof(float));
+        list_triangles(s, near);
         for (size_t i = 0; i < s->count; i++) {
-            s->order[i] = sorted[3 * i] / 3;
+            const float *a = glint_scene_position(s->scene, near[i], 0);
+            const float *b = glint_scene_position(s->scene, near[i], 1);
+            const float *c = glint_scene_position(s->scene, near[i], 2);
+            for (int k = 0; k < 3; k++) {
+                middles[i][k] = (a[k] + b[k] + c[k]) / 3;
+            }
+        }
+        meshopt_spatialSortRemap(place, middles[0], s->count, sizeof *middles);
+        for (size_t i = 0; i < s->count; i++) {
+            s->order[place[i]] = near[i];
         }
     }
-    free(corners);
-    free(sorted);
+    free(near);
+    free(place);
+    free(middles);
     return done;
 }
 

@@ -31,8 +31,7 @@ typedef struct edge_facts {
 
 static glint_vec3 position_at(const glint_welding *weld, uint32_t corner)
 {
-    const float *p = glint_position_at(weld, corner);
-    return (glint_vec3){(double)p[0], (double)p[1], (double)p[2]};
+    return glint_vec3_from_floats(glint_position_at(weld, corner));
 }
 
 // Bounds the error of judge_edge's determinant if its four points are off by some roundings. To

@@ -73,7 +73,7 @@ static part *measure_parts(const glint_scene *scene)
     for (size_t t = 0; all != NULL && t < scene->triangle_count; t++) {
         part *own = &all[parts->part_of[t]];
         own->first_triangle = own->low[0] > own->high[0] ? t : own->first_triangle;
-        for (int i = 0; i < 3; i++) {
+        for (size_t i = 0; i < 3; i++) {
             const glint_vec3 at = glint_scene_corner(scene, t, i);
             const double p[3] = {at.x, at.y, at.z};
             for (int k = 0; k < 3; k++) {

@@ -22,13 +22,13 @@ double glint_face_reach(const glint_face *f, const glint_face *other)
 
 glint_face glint_face_of(const glint_scene *scene, size_t triangle)
 {
-    const float *told = glint_scene_told(scene) + 9 * triangle;
     glint_face f;
     double most[3] = {0, 0, 0};
-    for (int i = 0; i < 3; i++) {
+    for (size_t i = 0; i < 3; i++) {
+        const float *told = glint_scene_told(scene, triangle, i);
         f.at[i] = glint_scene_corner(scene, triangle, i);
         for (int k = 0; k < 3; k++) {
-            most[k] = fmax(most[k], fabs((double)told[3 * i + k]));
+            most[k] = fmax(most[k], fabs((double)told[k]));
         }
     }
     f.size = scene->parts.count > 0 ? fmax(most[0], fmax(most[1], most[2])) : 1;

@@ -21,7 +21,7 @@ static bool is_opaque(const glint_material *m)
 
 static const float *told_corner(const glint_scene *scene, uint32_t corner)
 {
-    return glint_scene_told(scene) + 3 * (size_t)corner;
+    return glint_scene_told(scene, corner / 3, corner % 3);
 }
 
 // ---- Openings that opaque surfaces close --------------------------------------------------------
@@ -209,8 +209,8 @@ static void take_samples(const glint_scene *scene, const glint_topology *topolog
             continue;
         }
         const uint32_t next = glint_next_corner(corner);
-        const glint_vec3 a = glint_scene_corner(scene, corner / 3, (int)(corner % 3));
-        const glint_vec3 b = glint_scene_corner(scene, next / 3, (int)(next % 3));
+        const glint_vec3 a = glint_scene_corner(scene, corner / 3, corner % 3);
+        const glint_vec3 b = glint_scene_corner(scene, next / 3, next % 3);
         level->least = fmin(level->least, fmin(a.y, b.y));
         if (seen++ % every == 0 && level->sample_count < SAMPLES_MAX) {
             level->above[level->sample_count] = INFINITY;

@@ -308,19 +308,6 @@ static bool number_parts(joining *j, glint_parts *parts, bool *any_small)
     return is_whole;
 }
 
-static bool tell_positions(const glint_exact_triangles *exact, glint_parts *parts)
-{
-    parts->positions = glint_allocate_unset(exact->count, 9 * sizeof *parts->positions);
-    for (size_t corner = 0; parts->positions != NULL && corner < 3 * exact->count; corner++) {
-        const float *anchor = parts->anchors[parts->part_of[corner / 3]];
-        const double *place = place_of(exact, corner);
-        for (size_t k = 0; k < 3; k++) {
-            parts->positions[3 * corner + k] = (float)(place[k] - (double)anchor[k]);
-        }
-    }
-    return parts->positions != NULL;
-}
-
 static bool allocate(joining *j)
 {
     const size_t vertices = j->exact->vertex_count, count = j->exact->count;
@@ -357,9 +344,6 @@ glint_status glint_parts_find(const glint_exact_triangles *exact, glint_parts *p
     free(j.first);
     free(j.edges);
     free(j.table.slots);
-    if (is_whole && any_small) {
-        is_whole = tell_positions(exact, parts);
-    }
     if (!is_whole || !any_small) {
         glint_parts_free(parts);
     }

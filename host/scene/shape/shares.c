@@ -109,9 +109,8 @@ static bool add_scene(share_grid *grid, const glint_scene *scene)
 {
     for (size_t t = 0; t < scene->triangle_count; t++) {
         glint_vec3 corners[3];
-        for (int i = 0; i < 3; i++) {
-            const float *stored = scene->positions + 9 * t + 3 * i;
-            const glint_vec3 relative = {(double)stored[0], (double)stored[1], (double)stored[2]};
+        for (size_t i = 0; i < 3; i++) {
+            const glint_vec3 relative = glint_vec3_from_floats(glint_scene_position(scene, t, i));
             corners[i] =
                 seen_from(grid->camera,
                           glint_vec3_add(scene->origin, glint_vec3_scale(relative, scene->unit)));

@@ -66,10 +66,9 @@ static bool goes_on_at(const glint_scene *scene, bool rough, size_t triangle)
     return fate_at(&scene->materials[scene->material_of[triangle]], rough) != FATE_ENDS;
 }
 
-static glint_vec3 corner(const glint_scene *scene, size_t triangle, int k)
+static glint_vec3 corner(const glint_scene *scene, size_t triangle, size_t k)
 {
-    const float *p = scene->positions + 9 * triangle + 3 * k;
-    return (glint_vec3){(double)p[0], (double)p[1], (double)p[2]};
+    return glint_vec3_from_floats(glint_scene_position(scene, triangle, k));
 }
 
 // The plane of a triangle; n is a unit vector.
@@ -117,7 +116,7 @@ static bool is_flat(const glint_scene *scene, bool rough, bool passes)
     }
     const plane p = plane_of(scene, largest);
     for (size_t i = 0; i < scene->triangle_count; i++) {
-        for (int k = 0; k < 3 && goes_on_at(scene, rough, i); k++) {
+        for (size_t k = 0; k < 3 && goes_on_at(scene, rough, i); k++) {
             const glint_vec3 at = corner(scene, i, k);
             if (!(fabs(glint_vec3_dot(p.n, at) - p.offset) <= slack_at(&p, at, roundings))) {
                 return false;

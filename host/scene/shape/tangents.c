@@ -23,9 +23,12 @@ typedef struct shared_tangent {
 
 typedef struct tangents {
     glint_scene *scene;
-    size_t stride, tangent_at; // floats per corner; offset of the tangent
+    size_t stride, tangent_at; // floats per vertex; offset of the tangent
     shared_tangent *table;     // hash table; its size is a power of two
     size_t mask;
+    bool *is_wanted; // [triangle]
+    bool *is_set;    // [vertex]: its tangent counts
+    uint32_t *copy;  // [vertex]: a copy of it with another tangent; 0: none
 } tangents;
 
 // A triangle's corners, and the direction of its texture coordinates.
@@ -36,19 +39,14 @@ typedef struct sheet {
     int turn;           // winding in the texture: 1 or −1; 0: no area in the texture
 } sheet;
 
-static glint_vec3 vector_of(const float *p)
+static float *attributes_at(const tangents *t, size_t triangle, size_t corner)
 {
-    return (glint_vec3){(double)p[0], (double)p[1], (double)p[2]};
+    return t->scene->attributes + glint_scene_vertex(t->scene, triangle, corner) * t->stride;
 }
 
-static float *corner_attributes(const tangents *t, size_t triangle, int corner)
+static bool has_tangent(const tangents *t, size_t triangle, size_t corner)
 {
-    return t->scene->attributes + (3 * triangle + (size_t)corner) * t->stride;
-}
-
-static float *tangent_of(const tangents *t, size_t triangle, int corner)
-{
-    return corner_attributes(t, triangle, corner) + t->tangent_at;
+    return attributes_at(t, triangle, corner)[t->tangent_at + 3] != 0;
 }
 
 static const glint_material *material_of(const tangents *t, size_t triangle)
@@ -57,20 +55,20 @@ static const glint_material *material_of(const tangents *t, size_t triangle)
     return &scene->materials[scene->material_of[triangle]];
 }
 
-static bool is_wanted(const tangents *t, size_t triangle)
+static bool lacks_tangents(const tangents *t, size_t triangle)
 {
     return glint_material_needs_tangents(material_of(t, triangle)) &&
-           (tangent_of(t, triangle, 0)[3] == 0 || tangent_of(t, triangle, 1)[3] == 0 ||
-            tangent_of(t, triangle, 2)[3] == 0);
+           !(has_tangent(t, triangle, 0) && has_tangent(t, triangle, 1) &&
+             has_tangent(t, triangle, 2));
 }
 
 static sheet sheet_of(const tangents *t, size_t triangle)
 {
     const int at = glint_material_tangent_texture(material_of(t, triangle))->texcoord == 1 ? 2 : 0;
     sheet s = {.turn = 0};
-    for (int c = 0; c < 3; c++) {
-        s.positions[c] = glint_scene_corner(t->scene, triangle, (int)c);
-        s.uv[c] = corner_attributes(t, triangle, c) + at;
+    for (size_t c = 0; c < 3; c++) {
+        s.positions[c] = glint_scene_corner(t->scene, triangle, c);
+        s.uv[c] = attributes_at(t, triangle, c) + at;
     }
     const double u1 = (double)s.uv[1][0] - (double)s.uv[0][0];
     const double v1 = (double)s.uv[1][1] - (double)s.uv[0][1];
@@ -85,7 +83,8 @@ static sheet sheet_of(const tangents *t, size_t triangle)
     return s;
 }
 
-static glint_vec3 normal_at(const glint_scene *scene, size_t triangle, int corner, const sheet *s)
+static glint_vec3 normal_at(const glint_scene *scene, size_t triangle, size_t corner,
+                            const sheet *s)
 {
     const glint_vec3 geometric = glint_vec3_normalize(
         glint_vec3_cross(glint_vec3_subtract(s->positions[1], s->positions[0]),
@@ -93,7 +92,7 @@ static glint_vec3 normal_at(const glint_scene *scene, size_t triangle, int corne
     if (scene->normals == NULL) {
         return geometric;
     }
-    const glint_vec3 n = vector_of(scene->normals + 9 * triangle + 3 * corner);
+    const glint_vec3 n = glint_vec3_from_floats(glint_scene_normal(scene, triangle, corner));
     return glint_vec3_length(n) > 0 ? n : geometric;
 }
 
@@ -104,7 +103,7 @@ static glint_vec3 in_plane(glint_vec3 v, glint_vec3 n)
 }
 
 // The angle at a corner between its edges, projected into the plane of the normal.
-static double angle_at(const sheet *s, int corner, glint_vec3 n)
+static double angle_at(const sheet *s, size_t corner, glint_vec3 n)
 {
     const glint_vec3 p = s->positions[corner];
     const glint_vec3 a = in_plane(glint_vec3_subtract(s->positions[(corner + 1) % 3], p), n);
@@ -135,10 +134,10 @@ static shared_tangent *find(const tangents *t, const corner_key *key)
     return &t->table[slot];
 }
 
-static corner_key key_of(const tangents *t, size_t triangle, int corner, uint32_t instance,
+static corner_key key_of(const tangents *t, size_t triangle, size_t corner, uint32_t instance,
                          const sheet *s)
 {
-    const float *p = t->scene->positions + 9 * triangle + 3 * (size_t)corner;
+    const float *p = glint_scene_position(t->scene, triangle, corner);
     const glint_vec3 n = normal_at(t->scene, triangle, corner, s);
     float values[KEY_FLOATS] = {
         p[0], p[1], p[2], (float)n.x, (float)n.y, (float)n.z, s->uv[corner][0], s->uv[corner][1]};
@@ -155,7 +154,7 @@ static corner_key key_of(const tangents *t, size_t triangle, int corner, uint32_
 static void add_triangle(const tangents *t, size_t triangle, uint32_t instance)
 {
     const sheet s = sheet_of(t, triangle);
-    for (int c = 0; s.turn != 0 && c < 3; c++) {
+    for (size_t c = 0; s.turn != 0 && c < 3; c++) {
         const corner_key key = key_of(t, triangle, c, instance, &s);
         const glint_vec3 n = normal_at(t->scene, triangle, c, &s);
         shared_tangent *shared = find(t, &key);
@@ -164,21 +163,72 @@ static void add_triangle(const tangents *t, size_t triangle, uint32_t instance)
     }
 }
 
+static float *tangent_at(const tangents *t, size_t vertex)
+{
+    return t->scene->attributes + t->stride * vertex + t->tangent_at;
+}
+
+// Returns the number of a new vertex with the values of an old one.
+static uint32_t copy_vertex(const tangents *t, size_t vertex)
+{
+    glint_scene *scene = t->scene;
+    const size_t copy = scene->vertex_count++, triple = 3 * sizeof(float);
+    memcpy(scene->positions + 3 * copy, scene->positions + 3 * vertex, triple);
+    if (scene->normals != NULL) {
+        memcpy(scene->normals + 3 * copy, scene->normals + 3 * vertex, triple);
+    }
+    if (scene->parts.count > 0) {
+        memcpy(scene->parts.positions + 3 * copy, scene->parts.positions + 3 * vertex, triple);
+    }
+    memcpy(scene->attributes + t->stride * copy, scene->attributes + t->stride * vertex,
+           t->stride * sizeof *scene->attributes);
+    return (uint32_t)copy;
+}
+
+static bool has_other_tangent(const tangents *t, size_t vertex, const float tangent[4])
+{
+    uint32_t own[4], other[4];
+    memcpy(own, tangent_at(t, vertex), sizeof own);
+    memcpy(other, tangent, sizeof other);
+    return t->is_set[vertex] && memcmp(own, other, sizeof own) != 0;
+}
+
+// Sets the tangent of a corner. If its vertex has another tangent already, the corner gets a copy
+// of the vertex.
+static void set_tangent(const tangents *t, size_t triangle, size_t corner, const float tangent[4])
+{
+    enum { TRIES = 8 }; // so that a vertex of many triangles takes linear time
+    const size_t first = glint_scene_vertex(t->scene, triangle, corner);
+    size_t vertex = first;
+    for (int i = 0; i < TRIES && has_other_tangent(t, vertex, tangent) && t->copy[vertex] > 0;
+         i++) {
+        vertex = t->copy[vertex];
+    }
+    if (has_other_tangent(t, vertex, tangent)) {
+        vertex = copy_vertex(t, first);
+        t->copy[vertex] = t->copy[first];
+        t->copy[first] = (uint32_t)vertex;
+    }
+    memcpy(tangent_at(t, vertex), tangent, 4 * sizeof *tangent);
+    t->is_set[vertex] = true;
+    if (vertex != first) { // never without indices, where a vertex has one corner
+        t->scene->indices[3 * triangle + corner] = (uint32_t)vertex;
+    }
+}
+
 static void take_tangents(const tangents *t, size_t triangle, uint32_t instance)
 {
     const sheet s = sheet_of(t, triangle);
-    for (int c = 0; c < 3; c++) {
-        float *stored = tangent_of(t, triangle, c);
+    for (size_t c = 0; c < 3; c++) {
         glint_vec3 unit = {0, 0, 0};
         if (s.turn != 0) {
             const corner_key key = key_of(t, triangle, c, instance, &s);
             unit = glint_vec3_normalize(find(t, &key)->sum);
         }
-        stored[0] = (float)unit.x;
-        stored[1] = (float)unit.y;
-        stored[2] = (float)unit.z;
         // In MikkTSpace v rises upwards, and also in glTF's normal map: green is up.
-        stored[3] = glint_vec3_length(unit) > 0 ? (float)-s.turn : 0;
+        const float tangent[4] = {(float)unit.x, (float)unit.y, (float)unit.z,
+                                  glint_vec3_length(unit) > 0 ? (float)-s.turn : 0};
+        set_tangent(t, triangle, c, tangent);
     }
 }
 
@@ -189,35 +239,68 @@ static void for_each_wanted(const tangents *t,
     for (size_t i = 0; i < scene->instance_count; i++) {
         const glint_instance *instance = &scene->instances[i];
         for (size_t k = 0; k < instance->triangle_count; k++) {
-            if (is_wanted(t, instance->first_triangle + k)) {
+            if (t->is_wanted[instance->first_triangle + k]) {
                 work(t, instance->first_triangle + k, (uint32_t)i);
             }
         }
     }
 }
 
-bool glint_scene_complete_tangents(glint_scene *scene)
+// Marks the triangles to work on. The tangents of the others stay. Returns the number of marked
+// triangles.
+static size_t mark_wanted(const tangents *t)
 {
-    tangents t = {.scene = scene, .stride = glint_attributes_stride(&scene->attribute_set)};
-    t.tangent_at = t.stride - 4;
     size_t wanted = 0;
-    for (size_t i = 0; i < scene->triangle_count; i++) {
-        wanted += is_wanted(&t, i);
+    for (size_t i = 0; i < t->scene->triangle_count; i++) {
+        t->is_wanted[i] = lacks_tangents(t, i);
+        wanted += t->is_wanted[i];
+        for (size_t c = 0; !t->is_wanted[i] && c < 3; c++) {
+            t->is_set[glint_scene_vertex(t->scene, i, c)] = true;
+        }
     }
-    if (wanted == 0) {
-        return true;
-    }
+    return wanted;
+}
+
+// Makes room for the table, and for a copy at every corner. Returns false if memory is short.
+static bool make_room(tangents *t, size_t wanted)
+{
+    const size_t vertices = glint_scene_vertex_count(t->scene);
+    const size_t copies = t->scene->indices != NULL ? 3 * wanted : 0;
     size_t size = 16;
     while (size < 6 * wanted) {
         size *= 2;
     }
-    t.table = glint_allocate(size, sizeof *t.table);
-    t.mask = size - 1;
-    if (t.table == NULL) {
-        return false;
+    t->mask = size - 1;
+    t->table = glint_allocate(size, sizeof *t->table);
+    t->copy = glint_allocate(vertices + copies, sizeof *t->copy);
+    bool *is_set = realloc(t->is_set, vertices + copies);
+    t->is_set = is_set != NULL ? is_set : t->is_set;
+    if (is_set != NULL) {
+        memset(is_set + vertices, 0, copies);
     }
-    for_each_wanted(&t, add_triangle);
-    for_each_wanted(&t, take_tangents);
+    return t->table != NULL && t->copy != NULL && is_set != NULL &&
+           glint_scene_resize_vertices(t->scene, vertices + copies);
+}
+
+bool glint_scene_complete_tangents(glint_scene *scene)
+{
+    tangents t = {.scene = scene, .stride = glint_attributes_stride(&scene->attribute_set)};
+    t.tangent_at = t.stride - 4;
+    t.is_wanted = glint_allocate(scene->triangle_count, sizeof *t.is_wanted);
+    t.is_set = glint_allocate(glint_scene_vertex_count(scene), sizeof *t.is_set);
+    bool done = t.is_wanted != NULL && t.is_set != NULL;
+    const size_t wanted = done ? mark_wanted(&t) : 0;
+    if (wanted > 0) {
+        done = make_room(&t, wanted);
+        if (done) {
+            for_each_wanted(&t, add_triangle);
+            for_each_wanted(&t, take_tangents);
+        }
+        (void)glint_scene_resize_vertices(scene, glint_scene_vertex_count(scene));
+    }
     free(t.table);
-    return true;
+    free(t.copy);
+    free(t.is_set);
+    free(t.is_wanted);
+    return done;
 }

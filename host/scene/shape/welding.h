@@ -59,8 +59,7 @@ static inline uint32_t glint_triangle_at(const glint_welding *weld, uint32_t cor
 // The position relative to the anchor of the corner's part.
 static inline const float *glint_position_at(const glint_welding *weld, uint32_t corner)
 {
-    return glint_scene_told(weld->scene) + 9 * (size_t)glint_triangle_at(weld, corner) +
-           3 * (size_t)(corner % 3);
+    return glint_scene_told(weld->scene, glint_triangle_at(weld, corner), corner % 3);
 }
 
 #endif
