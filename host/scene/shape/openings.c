@@ -2,6 +2,7 @@
 // level surfaces.
 #include "scene/shape/openings.h"
 
+#include "base/hash_table.h"
 #include "base/memory.h"
 #include "kernels/layout.h"
 #include "scene/shape/faces.h"
@@ -10,8 +11,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define NONE 0xFFFFFFFFu
 
 static bool is_opaque(const glint_material *m)
 {
@@ -35,9 +34,14 @@ typedef struct border_edge {
 } border_edge;
 
 typedef struct border_table {
-    border_edge *edges;
-    size_t mask;
+    border_edge *edges; // [count], all different
+    uint32_t count;
+    glint_hash_table table;
 } border_table;
+
+typedef struct sought_edge {
+    const border_edge *edges, *edge;
+} sought_edge;
 
 // Makes the edge that begins at a corner. Its balance is 1 or −1.
 static border_edge edge_at(const glint_scene *scene, uint32_t corner)
@@ -57,61 +61,55 @@ static border_edge edge_at(const glint_scene *scene, uint32_t corner)
     return edge;
 }
 
-// Returns the table's entry for an edge; it is empty, with a balance of 0, if the edge is new.
-static border_edge *entry_of(const border_table *table, const border_edge *edge)
+static bool is_edge(const void *sought, uint32_t number)
 {
-    uint64_t hash = edge->part;
+    const border_edge *edge = ((const sought_edge *)sought)->edge;
+    const border_edge *known = &((const sought_edge *)sought)->edges[number];
+    bool equal = known->part == edge->part;
     for (int k = 0; k < 6; k++) {
-        uint32_t bits;
-        memcpy(&bits, &edge->ends[k], sizeof bits);
-        hash = (hash ^ bits) * 0x9E3779B97F4A7C15u;
-        hash ^= hash >> 29;
+        equal = equal && known->ends[k] == edge->ends[k];
     }
-    size_t slot = (size_t)hash & table->mask;
-    for (; table->edges[slot].part != NONE; slot = (slot + 1) & table->mask) {
-        const border_edge *known = &table->edges[slot];
-        bool equal = known->part == edge->part;
-        for (int k = 0; k < 6; k++) {
-            equal = equal && known->ends[k] == edge->ends[k];
-        }
-        if (equal) {
-            break;
-        }
-    }
-    return &table->edges[slot];
+    return equal;
+}
+
+// The slot of an edge; it is empty if the edge is new.
+static uint32_t *slot_of(const border_table *border, const border_edge *edge)
+{
+    const sought_edge sought = {border->edges, edge};
+    return glint_hash_table_slot(&border->table, glint_hash_floats(edge->part, edge->ends, 6),
+                                 is_edge, &sought);
 }
 
 static bool make_table(const glint_scene *scene, const glint_topology *topology,
-                       border_table *table)
+                       border_table *border)
 {
-    size_t size = 16;
-    while (size < 2 * topology->open_corner_count) {
-        size *= 2;
-    }
-    table->edges = glint_allocate(size, sizeof *table->edges);
-    table->mask = size - 1;
-    if (table->edges == NULL) {
+    const size_t most = topology->open_corner_count;
+    *border = (border_table){.edges = glint_allocate_unset(most, sizeof *border->edges)};
+    if (!glint_hash_table_create(most, &border->table) || border->edges == NULL) {
         return false;
     }
-    for (size_t i = 0; i < size; i++) {
-        table->edges[i].part = NONE;
-    }
-    for (size_t i = 0; i < topology->open_corner_count; i++) {
-        border_edge edge = edge_at(scene, topology->open_corners[i]);
-        border_edge *entry = entry_of(table, &edge);
-        edge.balance += entry->part != NONE ? entry->balance : 0;
-        *entry = edge;
+    for (size_t i = 0; i < most; i++) {
+        const border_edge edge = edge_at(scene, topology->open_corners[i]);
+        uint32_t *slot = slot_of(border, &edge);
+        if (*slot == GLINT_NO_ITEM) {
+            *slot = border->count++;
+            border->edges[*slot] = edge;
+        } else {
+            border->edges[*slot].balance += edge.balance;
+        }
     }
     return true;
 }
 
-static void add_opaque(const glint_scene *scene, const border_table *table)
+static void add_opaque(const glint_scene *scene, const border_table *border)
 {
     for (size_t t = 0; t < scene->triangle_count; t++) {
         for (uint32_t k = 0; k < 3 && is_opaque(&scene->materials[scene->material_of[t]]); k++) {
             const border_edge edge = edge_at(scene, (uint32_t)(3 * t) + k);
-            border_edge *entry = entry_of(table, &edge);
-            entry->balance += entry->part != NONE ? edge.balance : 0;
+            const uint32_t number = *slot_of(border, &edge);
+            if (number != GLINT_NO_ITEM) {
+                border->edges[number].balance += edge.balance;
+            }
         }
     }
 }
@@ -119,23 +117,24 @@ static void add_opaque(const glint_scene *scene, const border_table *table)
 // Clears the marks of components all of whose boundary edges opaque triangles continue.
 static bool clear_closed(const glint_scene *scene, const glint_topology *topology, bool *is_open)
 {
-    border_table table;
+    border_table border = {0};
     bool *has_hole = glint_allocate(topology->component_count, sizeof *has_hole);
-    const bool done = has_hole != NULL && make_table(scene, topology, &table);
+    const bool done = has_hole != NULL && make_table(scene, topology, &border);
     if (done) {
-        add_opaque(scene, &table);
+        add_opaque(scene, &border);
         for (size_t i = 0; i < topology->open_corner_count; i++) {
             const uint32_t corner = topology->open_corners[i];
             const border_edge edge = edge_at(scene, corner);
-            if (entry_of(&table, &edge)->balance != 0) {
+            if (border.edges[*slot_of(&border, &edge)].balance != 0) {
                 has_hole[topology->component_of[corner / 3]] = true;
             }
         }
         for (size_t i = 0; i < topology->component_count; i++) {
             is_open[i] = is_open[i] && has_hole[i];
         }
-        free(table.edges);
     }
+    free(border.edges);
+    glint_hash_table_free(&border.table);
     free(has_hole);
     return done;
 }

@@ -3,14 +3,13 @@
 // share an anchor, and their triangles may stand in one cluster of the tree.
 #include "scene/shape/parts.h"
 
+#include "base/hash_table.h"
 #include "base/memory.h"
 #include "base/union_find.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define NONE 0xFFFFFFFFu
 
 // A part is small if half of its extent is at most SMALL_PART, and the width of its smallest
 // triangle at most SMALL_TRIANGLE, in stored units. Half of the scene's extent is about 1. Larger
@@ -19,20 +18,14 @@
 #define SMALL_TRIANGLE 0x1p-9
 #define GRID_OF_PART 2.0 // factor on the power of two above half of the part's extent
 
-// A hash table of numbers; its size is a power of two.
-typedef struct table {
-    uint32_t *slots;
-    size_t mask;
-} table;
-
 // Joins triangles that share edges.
 typedef struct joining {
     const glint_exact_triangles *exact;
-    uint32_t *same;   // [vertex]: the first vertex at the same place
-    uint32_t *parent; // [triangle]: union-find
-    uint32_t *first;  // [vertex + 2]: where its edges begin
-    uint32_t *edges;  // [corner], by the lesser end; the corners at which the edges begin
-    table table;      // of vertices
+    uint32_t *same;         // [vertex]: the first vertex at the same place
+    uint32_t *parent;       // [triangle]: union-find
+    uint32_t *first;        // [vertex + 2]: where its edges begin
+    uint32_t *edges;        // [corner], by the lesser end; the corners at which the edges begin
+    glint_hash_table table; // of vertices, edges, anchors
 } joining;
 
 typedef struct extent {
@@ -46,48 +39,51 @@ bool glint_parts_may_be_there(double smallest_triangle)
 
 // ---- Joining ------------------------------------------------------------------------------------
 
-static uint64_t mixed(uint64_t hash, uint64_t value)
-{
-    hash = (hash ^ value) * 0x9E3779B97F4A7C15u;
-    return hash ^ hash >> 29;
-}
-
 static uint32_t vertex_of(const glint_exact_triangles *exact, uint32_t corner)
 {
     return exact->corners != NULL ? exact->corners[corner] : corner;
 }
 
-// The bits of a vertex's place, either exact or rounded to floats; −0 becomes 0.
-static void bits_of(const joining *j, uint32_t vertex, bool as_floats, uint64_t words[3])
+// A vertex's place, exact or rounded to floats.
+typedef struct vertex_place {
+    const double *places;
+    bool as_floats;
+    double at[3];
+} vertex_place;
+
+static double coordinate(const vertex_place *place, uint32_t vertex, size_t axis)
 {
-    double place[3];
-    for (int k = 0; k < 3; k++) {
-        const double at = j->exact->places[3 * (size_t)vertex + (size_t)k];
-        place[k] = (as_floats ? (double)(float)at : at) + 0.0;
-    }
-    memcpy(words, place, sizeof place);
+    const double at = place->places[3 * (size_t)vertex + axis];
+    return (place->as_floats ? (double)(float)at : at) + 0.0; // −0 becomes 0
+}
+
+static bool is_place(const void *sought, uint32_t vertex)
+{
+    const vertex_place *place = sought;
+    return coordinate(place, vertex, 0) == place->at[0] &&
+           coordinate(place, vertex, 1) == place->at[1] &&
+           coordinate(place, vertex, 2) == place->at[2];
 }
 
 // Sets `same`. Returns the number of different places.
 static size_t weld(joining *j, bool as_floats)
 {
     size_t places = 0;
-    memset(j->table.slots, 0xFF, (j->table.mask + 1) * sizeof *j->table.slots);
+    glint_hash_table_empty(&j->table, j->exact->vertex_count);
     for (uint32_t vertex = 0; vertex < j->exact->vertex_count; vertex++) {
-        uint64_t words[3], other[3];
-        bits_of(j, vertex, as_floats, words);
-        size_t slot = (size_t)mixed(mixed(mixed(0, words[0]), words[1]), words[2]) & j->table.mask;
-        for (; j->table.slots[slot] != NONE; slot = (slot + 1) & j->table.mask) {
-            bits_of(j, j->table.slots[slot], as_floats, other);
-            if (words[0] == other[0] && words[1] == other[1] && words[2] == other[2]) {
-                break;
-            }
+        vertex_place place = {.places = j->exact->places, .as_floats = as_floats};
+        uint64_t hash = 0, word;
+        for (size_t k = 0; k < 3; k++) {
+            place.at[k] = coordinate(&place, vertex, k);
+            memcpy(&word, &place.at[k], sizeof word);
+            hash = glint_hash_mix(hash, word);
         }
-        if (j->table.slots[slot] == NONE) {
-            j->table.slots[slot] = vertex;
+        uint32_t *slot = glint_hash_table_slot(&j->table, hash, is_place, &place);
+        if (*slot == GLINT_NO_ITEM) {
+            *slot = vertex;
             places++;
         }
-        j->same[vertex] = j->table.slots[slot];
+        j->same[vertex] = *slot;
     }
     return places;
 }
@@ -144,24 +140,29 @@ static void join_few(joining *j, const uint32_t *edges, size_t count)
     }
 }
 
+typedef struct upper_vertex {
+    const joining *j;
+    uint32_t vertex;
+} upper_vertex;
+
+static bool ends_at(const void *sought, uint32_t edge)
+{
+    const upper_vertex *upper = sought;
+    return upper_end(upper->j, edge) == upper->vertex;
+}
+
 // Does the same for many, with a table that is free.
 static void join_many(joining *j, const uint32_t *edges, size_t count)
 {
-    size_t mask = 15;
-    while (mask < 2 * count && mask < j->table.mask) {
-        mask = 2 * mask + 1;
-    }
-    memset(j->table.slots, 0xFF, (mask + 1) * sizeof *j->table.slots);
+    glint_hash_table_empty(&j->table, count);
     for (size_t i = 0; i < count; i++) {
-        const uint32_t upper = upper_end(j, edges[i]);
-        size_t slot = (size_t)mixed(0, upper) & mask;
-        while (j->table.slots[slot] != NONE && upper_end(j, j->table.slots[slot]) != upper) {
-            slot = (slot + 1) & mask;
-        }
-        if (j->table.slots[slot] == NONE) {
-            j->table.slots[slot] = edges[i];
+        const upper_vertex upper = {j, upper_end(j, edges[i])};
+        uint32_t *slot =
+            glint_hash_table_slot(&j->table, glint_hash_mix(0, upper.vertex), ends_at, &upper);
+        if (*slot == GLINT_NO_ITEM) {
+            *slot = edges[i];
         } else {
-            glint_union_join(j->parent, edges[i] / 3, j->table.slots[slot] / 3);
+            glint_union_join(j->parent, edges[i] / 3, *slot / 3);
         }
     }
 }
@@ -246,21 +247,27 @@ static bool choose_anchor(const extent *e, float anchor[3])
     return true;
 }
 
-// Returns the number of an anchor; adds the anchor if it is new.
-static uint32_t number_of(glint_parts *parts, const table *numbers, const float anchor[3])
+typedef struct anchor {
+    const glint_parts *parts;
+    float at[3];
+} anchor;
+
+static bool is_anchor(const void *sought, uint32_t number)
 {
-    uint32_t words[3];
-    memcpy(words, anchor, sizeof words);
-    size_t slot = (size_t)mixed(mixed(mixed(0, words[0]), words[1]), words[2]) & numbers->mask;
-    for (; numbers->slots[slot] != NONE; slot = (slot + 1) & numbers->mask) {
-        const float *known = parts->anchors[numbers->slots[slot]];
-        if (known[0] == anchor[0] && known[1] == anchor[1] && known[2] == anchor[2]) {
-            return numbers->slots[slot];
-        }
+    const anchor *a = sought;
+    const float *known = a->parts->anchors[number];
+    return known[0] == a->at[0] && known[1] == a->at[1] && known[2] == a->at[2];
+}
+
+// Returns the number of an anchor; adds the anchor if it is new.
+static uint32_t number_of(glint_parts *parts, const glint_hash_table *numbers, const anchor *a)
+{
+    uint32_t *slot = glint_hash_table_slot(numbers, glint_hash_floats(0, a->at, 3), is_anchor, a);
+    if (*slot == GLINT_NO_ITEM) {
+        *slot = (uint32_t)parts->count++;
+        memcpy(parts->anchors[*slot], a->at, sizeof a->at);
     }
-    memcpy(parts->anchors[parts->count], anchor, sizeof words);
-    numbers->slots[slot] = (uint32_t)parts->count;
-    return (uint32_t)parts->count++;
+    return *slot;
 }
 
 // Numbers the parts in part_of, in the order of their first triangles. Returns their number.
@@ -278,7 +285,7 @@ static size_t number_roots(joining *j, uint32_t *part_of)
 // *any_small: some part is small.
 static bool number_parts(joining *j, glint_parts *parts, bool *any_small)
 {
-    static const float origin[3] = {0, 0, 0};
+    const anchor origin = {parts, {0, 0, 0}};
     const size_t count = j->exact->count, roots = number_roots(j, parts->part_of);
     extent *extents = glint_allocate_unset(roots, sizeof *extents);
     uint32_t *numbers = glint_allocate(roots, sizeof *numbers); // [part]: of its anchor
@@ -291,14 +298,14 @@ static bool number_parts(joining *j, glint_parts *parts, bool *any_small)
     for (size_t t = 0; is_whole && t < count; t++) {
         grow(&extents[parts->part_of[t]], j->exact, t);
     }
-    memset(j->table.slots, 0xFF, (j->table.mask + 1) * sizeof *j->table.slots);
+    glint_hash_table_empty(&j->table, roots + 1);
     if (is_whole) {
-        (void)number_of(parts, &j->table, origin); // the first one
+        (void)number_of(parts, &j->table, &origin); // the first one
     }
     for (size_t r = 0; is_whole && r < roots; r++) {
-        float anchor[3];
-        *any_small = choose_anchor(&extents[r], anchor) || *any_small;
-        numbers[r] = number_of(parts, &j->table, anchor);
+        anchor own = {parts, {0, 0, 0}};
+        *any_small = choose_anchor(&extents[r], own.at) || *any_small;
+        numbers[r] = number_of(parts, &j->table, &own);
     }
     for (size_t t = 0; is_whole && t < count; t++) {
         parts->part_of[t] = numbers[parts->part_of[t]];
@@ -311,27 +318,24 @@ static bool number_parts(joining *j, glint_parts *parts, bool *any_small)
 static bool allocate(joining *j)
 {
     const size_t vertices = j->exact->vertex_count, count = j->exact->count;
-    // Vertices and anchors fill half of the table at most.
-    while (j->table.mask < 2 * (vertices > count ? vertices : count + 1)) {
-        j->table.mask = 2 * j->table.mask + 1;
-    }
     j->same = glint_allocate_unset(vertices, sizeof *j->same);
     j->parent = glint_allocate_unset(count, sizeof *j->parent);
     j->first = glint_allocate_unset(vertices + 2, sizeof *j->first);
     j->edges = glint_allocate_unset(3 * count, sizeof *j->edges);
-    j->table.slots = glint_allocate_unset(j->table.mask + 1, sizeof *j->table.slots);
-    return j->same != NULL && j->parent != NULL && j->first != NULL && j->edges != NULL &&
-           j->table.slots != NULL;
+    const size_t items = vertices > count ? vertices : count + 1; // count + 1: of anchors
+    return glint_hash_table_create(items, &j->table) && j->same != NULL && j->parent != NULL &&
+           j->first != NULL && j->edges != NULL;
 }
 
 glint_status glint_parts_find(const glint_exact_triangles *exact, glint_parts *parts,
                               glint_error *error)
 {
     *parts = (glint_parts){0};
-    if (exact->count == 0 || exact->count > (NONE - 1) / 3 || exact->vertex_count > NONE - 2) {
+    if (exact->count == 0 || exact->count > (GLINT_NO_ITEM - 1) / 3 ||
+        exact->vertex_count > GLINT_NO_ITEM - 2) {
         return GLINT_OK; // corner numbers have 32 bits
     }
-    joining j = {.exact = exact, .table = {NULL, 15}};
+    joining j = {.exact = exact};
     parts->part_of = glint_allocate_unset(exact->count, sizeof *parts->part_of);
     bool is_whole = allocate(&j) && parts->part_of != NULL;
     bool any_small = false;
@@ -343,7 +347,7 @@ glint_status glint_parts_find(const glint_exact_triangles *exact, glint_parts *p
     free(j.parent);
     free(j.first);
     free(j.edges);
-    free(j.table.slots);
+    glint_hash_table_free(&j.table);
     if (!is_whole || !any_small) {
         glint_parts_free(parts);
     }

@@ -1,6 +1,7 @@
 // Computes tangents for surfaces whose file has none. See tangents.h.
 #include "scene/shape/tangents.h"
 
+#include "base/hash_table.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -18,14 +19,14 @@ typedef struct corner_key {
 typedef struct shared_tangent {
     corner_key key;
     glint_vec3 sum;
-    bool is_taken;
 } shared_tangent;
 
 typedef struct tangents {
     glint_scene *scene;
     size_t stride, tangent_at; // floats per vertex; offset of the tangent
-    shared_tangent *table;     // hash table; its size is a power of two
-    size_t mask;
+    glint_hash_table table;    // of shared tangents
+    shared_tangent *shared;    // [shared_count], at most one for each corner
+    uint32_t shared_count;
     bool *is_wanted; // [triangle]
     bool *is_set;    // [vertex]: its tangent counts
     uint32_t *copy;  // [vertex]: a copy of it with another tangent; 0: none
@@ -111,27 +112,31 @@ static double angle_at(const sheet *s, size_t corner, glint_vec3 n)
     return acos(fmax(-1, fmin(1, glint_vec3_dot(a, b))));
 }
 
-static uint32_t hash_of(const corner_key *key)
+typedef struct sought_tangent {
+    const tangents *t;
+    const corner_key *key;
+} sought_tangent;
+
+static bool has_key(const void *sought, uint32_t number)
 {
-    uint32_t hash = 2166136261u;
-    for (int i = 0; i < KEY_WORDS; i++) {
-        hash = (hash ^ key->words[i]) * 0x9E3779B1u;
-        hash ^= hash >> 15;
-    }
-    return hash;
+    const sought_tangent *s = sought;
+    return memcmp(s->t->shared[number].key.words, s->key->words, sizeof s->key->words) == 0;
 }
 
 // Finds the tangent that a corner shares, or adds it.
-static shared_tangent *find(const tangents *t, const corner_key *key)
+static shared_tangent *find(tangents *t, const corner_key *key)
 {
-    size_t slot = hash_of(key) & t->mask;
-    while (t->table[slot].is_taken &&
-           memcmp(t->table[slot].key.words, key->words, sizeof key->words) != 0) {
-        slot = (slot + 1) & t->mask;
+    const sought_tangent sought = {t, key};
+    uint64_t hash = 0;
+    for (int i = 0; i < KEY_WORDS; i++) {
+        hash = glint_hash_mix(hash, key->words[i]);
     }
-    t->table[slot].is_taken = true;
-    t->table[slot].key = *key;
-    return &t->table[slot];
+    uint32_t *slot = glint_hash_table_slot(&t->table, hash, has_key, &sought);
+    if (*slot == GLINT_NO_ITEM) {
+        *slot = t->shared_count++;
+        t->shared[*slot] = (shared_tangent){.key = *key};
+    }
+    return &t->shared[*slot];
 }
 
 static corner_key key_of(const tangents *t, size_t triangle, size_t corner, uint32_t instance,
@@ -151,7 +156,7 @@ static corner_key key_of(const tangents *t, size_t triangle, size_t corner, uint
     return key;
 }
 
-static void add_triangle(const tangents *t, size_t triangle, uint32_t instance)
+static void add_triangle(tangents *t, size_t triangle, uint32_t instance)
 {
     const sheet s = sheet_of(t, triangle);
     for (size_t c = 0; s.turn != 0 && c < 3; c++) {
@@ -216,7 +221,7 @@ static void set_tangent(const tangents *t, size_t triangle, size_t corner, const
     }
 }
 
-static void take_tangents(const tangents *t, size_t triangle, uint32_t instance)
+static void take_tangents(tangents *t, size_t triangle, uint32_t instance)
 {
     const sheet s = sheet_of(t, triangle);
     for (size_t c = 0; c < 3; c++) {
@@ -232,8 +237,8 @@ static void take_tangents(const tangents *t, size_t triangle, uint32_t instance)
     }
 }
 
-static void for_each_wanted(const tangents *t,
-                            void (*work)(const tangents *t, size_t triangle, uint32_t instance))
+static void for_each_wanted(tangents *t,
+                            void (*work)(tangents *t, size_t triangle, uint32_t instance))
 {
     const glint_scene *scene = t->scene;
     for (size_t i = 0; i < scene->instance_count; i++) {
@@ -246,17 +251,13 @@ static void for_each_wanted(const tangents *t,
     }
 }
 
-// Marks the triangles to work on. The tangents of the others stay. Returns the number of marked
-// triangles.
+// Marks the triangles to work on. Returns their number.
 static size_t mark_wanted(const tangents *t)
 {
     size_t wanted = 0;
     for (size_t i = 0; i < t->scene->triangle_count; i++) {
         t->is_wanted[i] = lacks_tangents(t, i);
         wanted += t->is_wanted[i];
-        for (size_t c = 0; !t->is_wanted[i] && c < 3; c++) {
-            t->is_set[glint_scene_vertex(t->scene, i, c)] = true;
-        }
     }
     return wanted;
 }
@@ -266,20 +267,21 @@ static bool make_room(tangents *t, size_t wanted)
 {
     const size_t vertices = glint_scene_vertex_count(t->scene);
     const size_t copies = t->scene->indices != NULL ? 3 * wanted : 0;
-    size_t size = 16;
-    while (size < 6 * wanted) {
-        size *= 2;
-    }
-    t->mask = size - 1;
-    t->table = glint_allocate(size, sizeof *t->table);
+    t->shared = glint_allocate_unset(3 * wanted, sizeof *t->shared);
     t->copy = glint_allocate(vertices + copies, sizeof *t->copy);
-    bool *is_set = realloc(t->is_set, vertices + copies);
-    t->is_set = is_set != NULL ? is_set : t->is_set;
-    if (is_set != NULL) {
-        memset(is_set + vertices, 0, copies);
+    t->is_set = glint_allocate(vertices + copies, sizeof *t->is_set);
+    return glint_hash_table_create(3 * wanted, &t->table) && t->shared != NULL && t->copy != NULL &&
+           t->is_set != NULL && glint_scene_resize_vertices(t->scene, vertices + copies);
+}
+
+// The other triangles keep their tangents.
+static void keep_tangents(const tangents *t)
+{
+    for (size_t i = 0; i < 3 * t->scene->triangle_count; i++) {
+        if (!t->is_wanted[i / 3]) {
+            t->is_set[glint_scene_vertex(t->scene, i / 3, i % 3)] = true;
+        }
     }
-    return t->table != NULL && t->copy != NULL && is_set != NULL &&
-           glint_scene_resize_vertices(t->scene, vertices + copies);
 }
 
 bool glint_scene_complete_tangents(glint_scene *scene)
@@ -287,18 +289,19 @@ bool glint_scene_complete_tangents(glint_scene *scene)
     tangents t = {.scene = scene, .stride = glint_attributes_stride(&scene->attribute_set)};
     t.tangent_at = t.stride - 4;
     t.is_wanted = glint_allocate(scene->triangle_count, sizeof *t.is_wanted);
-    t.is_set = glint_allocate(glint_scene_vertex_count(scene), sizeof *t.is_set);
-    bool done = t.is_wanted != NULL && t.is_set != NULL;
+    bool done = t.is_wanted != NULL;
     const size_t wanted = done ? mark_wanted(&t) : 0;
     if (wanted > 0) {
         done = make_room(&t, wanted);
         if (done) {
+            keep_tangents(&t);
             for_each_wanted(&t, add_triangle);
             for_each_wanted(&t, take_tangents);
         }
         (void)glint_scene_resize_vertices(scene, glint_scene_vertex_count(scene));
     }
-    free(t.table);
+    glint_hash_table_free(&t.table);
+    free(t.shared);
     free(t.copy);
     free(t.is_set);
     free(t.is_wanted);

@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NONE 0xFFFFFFFFu
-
 static uint32_t part_at(const glint_welding *weld, uint32_t corner)
 {
     const glint_parts *parts = &weld->scene->parts;
@@ -22,60 +20,69 @@ static uint32_t kind_at(const glint_welding *weld, uint32_t corner)
     return kind_of != NULL ? kind_of[weld->scene->material_of[glint_triangle_at(weld, corner)]] : 0;
 }
 
-static uint32_t table_size(uint32_t corner_count)
-{
-    uint32_t size = 16;
-    while (size < 0x80000000u && size / 2 < corner_count) {
-        size *= 2;
-    }
-    return size;
-}
-
 // ---- Vertices -----------------------------------------------------------------------------------
 
-static uint32_t hash_corner(const glint_welding *weld, uint32_t corner)
+// A corner to find the vertex of.
+typedef struct sought_corner {
+    const glint_welding *weld;
+    uint32_t corner;
+} sought_corner;
+
+static uint64_t hash_corner(const glint_welding *weld, uint32_t corner)
 {
-    const float *p = glint_position_at(weld, corner);
-    uint32_t hash = 2166136261u ^ part_at(weld, corner);
-    hash ^= weld->list.by_kind ? kind_at(weld, corner) << 16 : 0;
-    for (int k = 0; k < 3; k++) {
-        float value = p[k] + 0.0f; // −0 becomes 0
-        uint32_t bits;
-        memcpy(&bits, &value, sizeof bits);
-        hash = (hash ^ bits) * 0x9E3779B1u;
-        hash ^= hash >> 15;
-    }
-    return hash;
+    const uint32_t kind = weld->list.by_kind ? kind_at(weld, corner) : 0;
+    const uint64_t hash = glint_hash_mix(kind, part_at(weld, corner));
+    return glint_hash_floats(hash, glint_position_at(weld, corner), 3);
 }
 
-static bool is_same_vertex(const glint_welding *weld, uint32_t a, uint32_t b)
+static bool is_vertex_of(const void *sought, uint32_t vertex)
 {
+    const sought_corner *s = sought;
+    const glint_welding *weld = s->weld;
+    const uint32_t a = s->corner, b = weld->corner_of[vertex];
     const float *p = glint_position_at(weld, a);
     const float *q = glint_position_at(weld, b);
     return p[0] == q[0] && p[1] == q[1] && p[2] == q[2] && part_at(weld, a) == part_at(weld, b) &&
            (!weld->list.by_kind || kind_at(weld, a) == kind_at(weld, b));
 }
 
+// Returns the vertex at a corner's place; adds it if it is new.
+static uint32_t weld_corner(glint_welding *weld, uint32_t corner)
+{
+    const sought_corner sought = {weld, corner};
+    uint32_t *slot =
+        glint_hash_table_slot(&weld->table, hash_corner(weld, corner), is_vertex_of, &sought);
+    if (*slot == GLINT_NO_ITEM) {
+        *slot = weld->vertex_count++;
+        weld->corner_of[*slot] = corner;
+    }
+    return *slot;
+}
+
+// The most vertices that the triangles can have.
+static uint32_t most_vertices(const glint_scene *scene, uint32_t triangles)
+{
+    const size_t all = glint_scene_vertex_count(scene), corners = 3 * (size_t)triangles;
+    return (uint32_t)(all < corners ? all : corners);
+}
+
 static void weld_corners(glint_welding *weld)
 {
-    const uint32_t corners = 3 * weld->list.count;
-    const uint32_t mask = table_size(corners) - 1;
-    memset(weld->table, 0xFF, ((size_t)mask + 1) * sizeof *weld->table);
+    glint_hash_table_empty(&weld->table, most_vertices(weld->scene, weld->list.count));
     weld->vertex_count = 0;
-    for (uint32_t corner = 0; corner < corners; corner++) {
-        uint32_t slot = hash_corner(weld, corner) & mask;
-        for (;; slot = (slot + 1) & mask) {
-            uint32_t vertex = weld->table[slot];
-            if (vertex == NONE) {
-                vertex = weld->vertex_count++;
-                weld->table[slot] = vertex;
-                weld->corner_of[vertex] = corner;
-            }
-            if (is_same_vertex(weld, corner, weld->corner_of[vertex])) {
-                weld->vertex_of[corner] = vertex;
-                break;
-            }
+    weld->call++;
+    for (uint32_t corner = 0; corner < 3 * weld->list.count; corner++) {
+        if (weld->known == NULL) {
+            weld->vertex_of[corner] = weld_corner(weld, corner);
+            continue;
         }
+        const size_t triangle = glint_triangle_at(weld, corner);
+        glint_known_weld *known =
+            &weld->known[glint_scene_vertex(weld->scene, triangle, corner % 3)];
+        if (known->call != weld->call) {
+            *known = (glint_known_weld){weld->call, weld_corner(weld, corner)};
+        }
+        weld->vertex_of[corner] = known->vertex;
     }
 }
 
@@ -299,30 +306,42 @@ static bool pair_edges(glint_welding *weld)
     return true;
 }
 
+// Frees all that belongs to a list.
+static void free_list(glint_welding *weld)
+{
+    free(weld->vertex_of);
+    free(weld->corner_of);
+    free(weld->twin);
+    free(weld->first_edge);
+    free(weld->edges);
+    glint_hash_table_free(&weld->table);
+    *weld = (glint_welding){.scene = weld->scene, .call = weld->call, .known = weld->known};
+}
+
 static bool make_room(glint_welding *weld, uint32_t triangles)
 {
-    if (triangles <= weld->capacity) {
-        return true;
-    }
     const glint_scene *scene = weld->scene;
-    const size_t corners = 3 * (size_t)triangles;
-    glint_welding_free(weld);
-    weld->scene = scene;
-    weld->vertex_of = glint_allocate(corners, sizeof *weld->vertex_of);
-    weld->corner_of = glint_allocate(corners, sizeof *weld->corner_of);
-    weld->twin = glint_allocate(corners, sizeof *weld->twin);
-    weld->table = glint_allocate(table_size((uint32_t)corners), sizeof *weld->table);
-    weld->first_edge = glint_allocate(corners + 1, sizeof *weld->first_edge);
-    weld->edges = glint_allocate(corners, sizeof *weld->edges);
-    weld->capacity = triangles;
-    return weld->vertex_of && weld->corner_of && weld->twin && weld->table && weld->first_edge &&
-           weld->edges;
+    const size_t corners = 3 * (size_t)triangles, vertices = most_vertices(scene, triangles);
+    if (scene->indices != NULL && weld->known == NULL) {
+        weld->known = glint_allocate(scene->vertex_count, sizeof *weld->known);
+    }
+    if (triangles > weld->capacity) {
+        free_list(weld);
+        weld->vertex_of = glint_allocate_unset(corners, sizeof *weld->vertex_of);
+        weld->corner_of = glint_allocate_unset(vertices, sizeof *weld->corner_of);
+        weld->twin = glint_allocate_unset(corners, sizeof *weld->twin);
+        weld->first_edge = glint_allocate_unset(vertices + 1, sizeof *weld->first_edge);
+        weld->edges = glint_allocate_unset(corners, sizeof *weld->edges);
+        weld->capacity = glint_hash_table_create(vertices, &weld->table) ? triangles : 0;
+    }
+    return (weld->known || scene->indices == NULL) && weld->vertex_of && weld->corner_of &&
+           weld->twin && weld->first_edge && weld->edges && weld->table.slots;
 }
 
 bool glint_weld(glint_welding *weld, const glint_weld_list *list)
 {
     // Corner numbers have 32 bits.
-    if (list->count > (NONE - 1) / 3 || !make_room(weld, list->count)) {
+    if (list->count > (GLINT_NO_ITEM - 1) / 3 || !make_room(weld, list->count)) {
         return false;
     }
     weld->list = *list;
@@ -333,11 +352,7 @@ bool glint_weld(glint_welding *weld, const glint_weld_list *list)
 
 void glint_welding_free(glint_welding *weld)
 {
-    free(weld->vertex_of);
-    free(weld->corner_of);
-    free(weld->twin);
-    free(weld->table);
-    free(weld->first_edge);
-    free(weld->edges);
+    free_list(weld);
+    free(weld->known);
     *weld = (glint_welding){0};
 }

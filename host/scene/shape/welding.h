@@ -2,6 +2,7 @@
 #ifndef GLINT_SCENE_SHAPE_WELDING_H
 #define GLINT_SCENE_SHAPE_WELDING_H
 
+#include "base/hash_table.h"
 #include "scene/scene.h"
 
 #include <stdbool.h>
@@ -24,24 +25,31 @@ typedef struct glint_weld_list {
     bool by_kind;            // corners of different kinds are different vertices
 } glint_weld_list;
 
+// The welded vertex of a vertex of the scene.
+typedef struct glint_known_weld {
+    uint32_t call, vertex; // the list that it was found for, and its number there
+} glint_known_weld;
+
 // Zero is valid. Arrays are as large as the largest list so far.
 typedef struct glint_welding {
     const glint_scene *scene;
     glint_weld_list list;
     uint32_t capacity; // triangles
     uint32_t vertex_count;
-    uint32_t *vertex_of;    // [corner]
-    uint32_t *corner_of;    // [vertex]: one of the vertex's corners
-    uint32_t *twin;         // [corner]: start of the paired half-edge, or GLINT_UNPAIRED
-    uint32_t *table;        // hash table of vertices, a power of two in size
-    uint32_t *first_edge;   // [vertex + 1]: index into edges
-    glint_half_edge *edges; // [corner]: sorted by the lesser vertex, the greater one, the corner
+    uint32_t call;           // number of the list, from 1
+    glint_known_weld *known; // [vertex of the scene]; NULL without indices
+    uint32_t *vertex_of;     // [corner]
+    uint32_t *corner_of;     // [vertex]: one of the vertex's corners
+    uint32_t *twin;          // [corner]: start of the paired half-edge, or GLINT_UNPAIRED
+    glint_hash_table table;  // of vertices
+    uint32_t *first_edge;    // [vertex + 1]: index into edges
+    glint_half_edge *edges;  // [corner]: sorted by the lesser vertex, the greater one, the corner
 } glint_welding;
 
-// Welds corners whose positions are equal bit for bit (−0 = 0), and pairs half-edges. Twins run in
-// opposite directions along one edge. Where more than two triangles share an edge, each pair bounds
-// one wedge of the inside; triangles of one kind are paired first. Returns false if memory is
-// short.
+// Welds corners whose positions are equal bit for bit (−0 = 0), and pairs half-edges. Vertices that
+// the scene shares are looked at once. Twins run in opposite directions along one edge. Where more
+// than two triangles share an edge, each pair bounds one wedge of the inside; triangles of one kind
+// are paired first. Returns false if memory is short.
 bool glint_weld(glint_welding *weld, const glint_weld_list *list);
 void glint_welding_free(glint_welding *weld);
 
