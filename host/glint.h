@@ -9,7 +9,7 @@
 #ifndef GLINT_H
 #define GLINT_H
 
-#include "accel/bvh.h"
+#include "accel/bvh_build.h"
 #include "base/memory.h"
 #include "base/status.h"
 #include "base/vector.h"
@@ -22,7 +22,9 @@
 #include "image/image_io.h"
 #include "render/frame.h"
 #include "render/layers.h"
-#include "render/plan.h"
+#include "render/plan_device.h"
+#include "render/plan_make.h"
+#include "render/plan_tree.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "scene/shape/topology.h"

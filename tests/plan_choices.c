@@ -11,7 +11,9 @@
 #include "base/random.h"
 #include "kernels/layout.h"
 #include "render/plan.h"
-#include "render/plan_parts.h"
+#include "render/plan_device.h"
+#include "render/plan_features.h"
+#include "render/plan_make.h"
 
 #include <jansson.h>
 #include <math.h>

@@ -1,5 +1,6 @@
 // Tests the wide tree: every triangle must be in one cluster, inside every box above it.
 #include "accel/bvh.h"
+#include "accel/bvh_build.h"
 #include "kernels/layout.h"
 #include "support/tree_checks.h"
 

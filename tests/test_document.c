@@ -2,6 +2,7 @@
 // say, but reads nothing outside of them.
 #include "scene/document.h"
 #include "scene/gltf/load.h"
+#include "scene/gltf/open.h"
 #include "scene/gltf/reader.h"
 
 #include <setjmp.h>

@@ -1,5 +1,6 @@
 // Proves that every public header is plain C11: this file compiles with -std=c11 -pedantic. At run
 // time it only checks that zero is a valid object everywhere.
+#include "accel/bvh_build.h"
 #include "glint.h"
 
 #include <setjmp.h>

@@ -2,6 +2,7 @@
 // reasons.
 #include "kernels/layout.h"
 #include "render/plan.h"
+#include "render/plan_make.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,5 +1,6 @@
 // Tests refitting a tree to moved triangles: it must stay a valid tree, with a true cost.
 #include "accel/bvh.h"
+#include "accel/bvh_build.h"
 #include "kernels/layout.h"
 #include "support/tree_checks.h"
 

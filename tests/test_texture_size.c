@@ -1,5 +1,6 @@
 // Tests --texture-size, which drops texture levels, and joined images.
 #include "scene/texture/texture.h"
+#include "scene/texture/texture_read.h"
 #include "support/scratch.h"
 #include "support/textured_plane.h"
 

@@ -2,6 +2,7 @@
 // through it, onto a small plane of its own. The test interpolates the results between the corners
 // of the triangle that a pixel sees.
 #include "environment/irradiance.h"
+#include "render/plan_make.h"
 #include "scene/shape/icosphere.h"
 #include "support/bridge.h"
 #include "support/by_corner.h"

@@ -1,4 +1,5 @@
-// Builds the bounding volume hierarchy: a wide tree over triangles, in the device's layout.
+// The bounding volume hierarchy: a wide tree over triangles, in the device's layout; and the
+// triangles that it is built from.
 #ifndef GLINT_ACCEL_BVH_H
 #define GLINT_ACCEL_BVH_H
 
@@ -125,20 +126,5 @@ static inline uint64_t glint_bvh_group(const glint_bvh_inputs *in, size_t triang
     const uint64_t part = in->told != NULL ? in->part_of[triangle] : 0;
     return part << 32 | in->material_of[triangle];
 }
-
-// Builds a tree. The same input gives the same tree. Triangles without area are left out, that is,
-// triangles whose stored corners are in line; so no ray hits them by rounding. A loader drops them,
-// but scenes made by hand may hold some. Two triangles of a cluster share a vertex if its position
-// and normal have the same bits. Errors: GLINT_OUT_OF_MEMORY, GLINT_BAD_INPUT (too many triangles
-// for the layout).
-glint_status glint_bvh_build(const glint_bvh_inputs *inputs, glint_bvh *bvh, glint_error *error);
-void glint_bvh_free(glint_bvh *bvh);
-
-// Fits a tree to the same triangles after they moved. This takes a fraction of the time of a build.
-// Rays hit the same triangles as in a new tree; report.sah_cost tells how much longer they search.
-// Returns false if the tree does not serve: another number of triangles, or of triangles with an
-// area; triangles that shared a vertex came apart; too little memory. The caller then frees the
-// tree.
-bool glint_bvh_refit(const glint_bvh_inputs *inputs, glint_bvh *bvh);
 
 #endif

@@ -1,6 +1,6 @@
 // Fits a tree to triangles that have moved. Clusters keep their triangles and nodes their children.
-// Every box is computed anew, from the leaves up. See bvh.h.
-#include "accel/bvh.h"
+// Every box is computed anew, from the leaves up. See bvh_build.h.
+#include "accel/bvh_build.h"
 
 #include "accel/box.h"
 #include "accel/wide_box.h"

@@ -1,6 +1,7 @@
 // Uploads the scene and swaps it with the next scene. See device_scene.h.
 #include "render/device_scene.h"
 
+#include "accel/bvh_build.h"
 #include "base/clock.h"
 #include "render/vertices.h"
 

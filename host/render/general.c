@@ -1,7 +1,7 @@
 // Chooses general kernels. See general.h.
 #include "render/general.h"
 
-#include "render/plan_parts.h"
+#include "render/plan_device.h"
 
 const char *glint_kernel_kind_name(glint_kernel_kind kind)
 {

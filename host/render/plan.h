@@ -1,5 +1,4 @@
-// Makes the plan: decides what is compiled for a scene on a device, and says why. Pure: calls no
-// OpenCL.
+// The plan: what is compiled for a scene on a device, and why.
 #ifndef GLINT_RENDER_PLAN_H
 #define GLINT_RENDER_PLAN_H
 
@@ -87,43 +86,12 @@ typedef struct glint_plan_inputs {
     const glint_half_rounding *half;
 } glint_plan_inputs;
 
-// The default number of lanes of a packet on the device: 1, 8 or 16.
-int glint_plan_native_width(const glint_capabilities *device, glint_precision precision);
-
-// Makes a plan. Errors: as glint_settings_check, and GLINT_USAGE for half texels if half cannot
-// hold the environment.
-glint_status glint_plan_make(const glint_plan_inputs *inputs, glint_plan *plan, glint_error *error);
-
-// Changes a plan for other settings of the same scene, environment and device. They must be a
-// variation of the settings that made the plan. Does not read scene and topology. Errors: as
-// glint_plan_make; *plan is then invalid.
-glint_status glint_plan_vary(const glint_plan_inputs *in, glint_plan *plan, glint_error *error);
-
-// Chooses the texels again for another environment. Does not read scene and topology. Changes only
-// the parts of the plan that concern texels. Errors: as glint_plan_make.
-glint_status glint_plan_choose_texels(const glint_plan_inputs *in, glint_plan *plan,
-                                      glint_error *error);
-
-// Builds the tree of the scene's triangles for the plan's kernels. Errors: as glint_bvh_build.
-glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh,
-                                   glint_error *error);
-
-// Refits a tree of the same scene at another time. Returns false if this is impossible, see
-// glint_bvh_refit.
-bool glint_plan_refit_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh);
-
 // True if a plan of these settings, or of a variation of them, may use proofs about the scene.
 static inline bool glint_plan_may_heed_sight(const glint_settings *settings)
 {
     return settings->depth == 0 && settings->output == GLINT_OUTPUT_COLOR &&
            settings->shading == GLINT_SHADING_PIXEL;
 }
-
-// Switches the use of a plan's proof on or off; initially it is on. It must be off if the proof
-// holds only for eyes outside (sight.from_outside) and this eye is inside. Changes the depth, and
-// whether paths continue. Nothing else in a plan depends on these if no path splits. If paths may
-// split, no proof holds only for eyes outside.
-void glint_plan_heed_sight(glint_plan *plan, bool heed);
 
 // True if the plan shades vertices.
 static inline bool glint_plan_shades_vertices(const glint_plan *plan)
@@ -151,6 +119,19 @@ int glint_plan_feature_count(const glint_plan *plan);
 // Writes the build options of the plan's special kernels, which contain what the plan compiles
 // ("-DGLINT_WIDTH=16 …"). general.h has the options of general kernels.
 void glint_plan_build_options(const glint_plan *plan, char text[GLINT_BUILD_OPTIONS_BYTES]);
+
+// What kernels are compiled with, apart from the parts of a plan that never differ between special
+// and general kernels: width, precision, tiles.
+typedef struct glint_variant {
+    bool is_general;
+    bool features[GLINT_FEATURE_COUNT];
+    bool half_texels;
+    int stack_capacity, traversal_stack;
+} glint_variant;
+
+// Writes the build options of a variant.
+void glint_plan_write_options(const glint_plan *plan, const glint_variant *variant,
+                              char text[GLINT_BUILD_OPTIONS_BYTES]);
 
 // Describes the plan in one line: "shading pixel, depth auto (at most 64), precision float, half
 // texels, width 16, 12 of 18 features".

@@ -1,5 +1,5 @@
-// Adapts the kernels to the device: packets, tiles, stacks and texels. See plan_parts.h.
-#include "render/plan_parts.h"
+// Adapts the kernels to the device: packets, tiles, stacks and texels. See plan_device.h.
+#include "render/plan_device.h"
 #include "render/wavelengths.h"
 
 #include "base/half.h"

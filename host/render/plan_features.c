@@ -1,7 +1,8 @@
-// Decides what is compiled into the kernels, with reasons. See plan_parts.h.
-#include "render/plan_parts.h"
+// Decides what is compiled into the kernels, with reasons. See plan_features.h.
+#include "render/plan_features.h"
 
 #include "base/memory.h"
+#include "render/plan_device.h"
 
 #include <math.h>
 #include <stdarg.h>

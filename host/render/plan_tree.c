@@ -1,5 +1,7 @@
-// Builds and refits the trees of plans. See plan.h.
-#include "render/plan.h"
+// Builds and refits the trees of plans. See plan_tree.h.
+#include "render/plan_tree.h"
+
+#include "accel/bvh_build.h"
 #include "scene/shape/complete_normals.h"
 
 #include <stdlib.h>

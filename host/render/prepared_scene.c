@@ -1,8 +1,11 @@
 // Prepares a scene without the device. See prepared_scene.h.
 #include "render/prepared_scene.h"
 
+#include "accel/bvh_build.h"
 #include "base/clock.h"
-#include "render/plan_parts.h"
+#include "render/plan_device.h"
+#include "render/plan_make.h"
+#include "render/plan_tree.h"
 #include "scene/shape/topology.h"
 
 static bool has_solids(const glint_scene *scene)

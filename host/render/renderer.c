@@ -2,6 +2,8 @@
 #include "render/renderer.h"
 
 #include "base/clock.h"
+#include "render/plan_device.h"
+#include "render/plan_make.h"
 #include "render/vertices.h"
 
 #include <stdlib.h>

@@ -2,7 +2,9 @@
 // glint_frame_record.
 #include "render/view.h"
 
-#include "render/plan_parts.h"
+#include "render/plan_device.h"
+#include "render/plan_features.h"
+#include "render/plan_make.h"
 #include "render/split.h"
 #include "render/wavelengths.h"
 

@@ -1,7 +1,7 @@
 // Compiles kernels without a scene. See general.h.
 #include "base/clock.h"
 #include "render/kernels.h"
-#include "render/plan_parts.h"
+#include "render/plan_device.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-// Frees scenes, computes their bounds, and finds cameras. load.c loads scenes.
+// Frees scenes, computes their bounds, and finds cameras. gltf/open.c loads scenes.
 #include "scene/scene.h"
 
 #include <math.h>

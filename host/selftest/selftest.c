@@ -2,6 +2,7 @@
 #include "selftest/selftest.h"
 
 #include "base/clock.h"
+#include "render/plan_device.h"
 #include "selftest/trial.h"
 
 #include <stdio.h>

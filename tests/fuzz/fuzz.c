@@ -17,6 +17,7 @@
 #include "report/farm_report.h"
 #include "report/frame/fingerprint.h"
 #include "scene/gltf/load.h"
+#include "scene/gltf/open.h"
 #include "scene/gltf/reader.h"
 #include "scene/scene.h"
 #include "scene/shape/topology.h"

@@ -1,6 +1,7 @@
 // Checks trees. See tree_checks.h.
 #include "support/tree_checks.h"
 
+#include "accel/bvh_build.h"
 #include "kernels/layout.h"
 
 #include <math.h>

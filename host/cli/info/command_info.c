@@ -4,9 +4,12 @@
 #include "cli/common/options.h"
 
 #include "accel/bvh.h"
+#include "accel/bvh_build.h"
 #include "cli/common/inputs.h"
 #include "device/device.h"
 #include "render/general.h"
+#include "render/plan_make.h"
+#include "render/plan_tree.h"
 #include "render/view.h"
 #include "report/frame/inventory.h"
 #include "scene/shape/digits.h"

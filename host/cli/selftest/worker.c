@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/whole_io.h"
+#include "render/plan_device.h"
 
 #include <errno.h>
 #include <fcntl.h>

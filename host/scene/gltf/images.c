@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "image/image_io.h"
 #include "scene/gltf/find_file.h"
+#include "scene/texture/texture_read.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -69,10 +69,4 @@ static inline const char *glint_load_text(const glint_load *load, glint_text tex
     return glint_document_text(&load->document, text);
 }
 
-// Does what glint_scene_open does with the document in a memory file, which the caller keeps.
-// `path` is the scene's file, beside which its images lie.
-glint_status glint_scene_open_document(const char *path, int file,
-                                       const glint_scene_options *options,
-                                       glint_scene_source **source, glint_error *error);
-
 #endif

@@ -98,26 +98,12 @@ typedef struct glint_textures {
     unsigned owners;       // counted atomically
 } glint_textures;
 
-// An image to read, and its use.
-typedef struct glint_texture_request {
-    glint_image_source source;
-    bool is_color;    // R, G and B are encoded by the sRGB curve
-    bool is_coverage; // A is coverage: transparent texels count less in coarser levels
-    int threads;      // threads that compute its levels; 0: one per core
-} glint_texture_request;
-
 // The levels of one image, with their own memory.
 typedef struct glint_texture_levels {
     glint_texture texture; // `first` counts from this image's first texel
     size_t texel_count;
     uint16_t (*texels)[4]; // owned
 } glint_texture_levels;
-
-// Decodes an image and computes its levels. Leaves out levels wider or higher than `largest`
-// texels; 0: no limit. Ignores the file's colour space and orientation, as glTF requires. Errors:
-// GLINT_BAD_INPUT with the source's name; GLINT_OUT_OF_MEMORY.
-glint_status glint_texture_read(const glint_texture_request *request, int largest,
-                                glint_texture_levels *levels, glint_error *error);
 
 // Moves images into one array and frees their own memory; *textures has one owner. Errors:
 // GLINT_OUT_OF_MEMORY.

@@ -1,10 +1,11 @@
 // Loads glTF: reads the file into a document, chooses what is shown, and makes the scene at a time.
 // Below this file, messages do not name the scene's file.
-#include "scene/gltf/load.h"
+#include "scene/gltf/open.h"
 
 #include "base/memory.h"
 #include "scene/gltf/find_file.h"
 #include "scene/gltf/flatten.h"
+#include "scene/gltf/load.h"
 #include "scene/gltf/names.h"
 #include "scene/gltf/reader.h"
 #include "scene/gltf/sweep.h"

@@ -1,6 +1,6 @@
 // Builds the wide tree: first a binary tree by the surface area heuristic, then wide nodes from it.
-// The leaves become clusters. See bvh.h.
-#include "accel/bvh.h"
+// The leaves become clusters. See bvh_build.h.
+#include "accel/bvh_build.h"
 
 #include "accel/binary_tree.h"
 #include "accel/collapse.h"
