@@ -28,36 +28,30 @@ typedef int pixels;
 #define BRANCH_KINDS (CUT_SHORT + ESCAPES)
 #define CUT_SHORT 6
 
+// Members of the path's state that wait.
+#define IF_STORED(needs, waits) IF_BOTH(NEEDS_##needs, waits)
+
 typedef struct branch {
-    scalar origin[3], direction[3], weight[3];
-#if LOCAL_RAYS
-    scalar origin_low[3];
-#endif
-#if CARRIES_CONES
-    scalar width, spread; // see cone
-#endif
-    lane_int from, media;
-    int pixel, met, kind;
-#if GLINT_ALPHA
-    int passed;
-#endif
-#if GLINT_DISPERSION
-    int dispersed;
-#endif
-#if GLINT_FACETS
-    scalar lobe_width, lobe_spread;
-#endif
-#if GLINT_ROUGH
-    scalar held[3], shown;
-#endif
+#define STORE_REAL3(name) scalar name[3];
+#define STORE_REAL(name) scalar name;
+#define STORE_CONE(name) scalar name[2];
+#define STORE_BITS(name) lane_int name;
+#define STORE_COUNT(name) int name;
+#define STORE(kind, name, needs, waits, start, meaning) IF_STORED(needs, waits)(STORE_##kind(name))
+    GLINT_PATH_STATE(STORE)
+#undef STORE
+    int pixel, kind;
 } branch;
 
-// The host relies on this size when it reserves room for a tile's branches.
-typedef char branch_is_as_large_as_layout_h_says
-    [sizeof(branch) == GLINT_BRANCH_BYTES(sizeof(scalar), CARRIES_CONES, GLINT_ALPHA, GLINT_ROUGH,
-                                          GLINT_FACETS, GLINT_DISPERSION, LOCAL_RAYS)
+// The bytes that the host counts, rounded up to whole numbers.
+#define BYTES(kind, name, needs, waits, start, meaning)                                            \
+    IF_STORED(needs, waits)(+GLINT_BYTES_##kind(sizeof(scalar)))
+typedef char branch_is_as_large_as_the_host_reckons
+    [sizeof(branch) == (GLINT_BRANCH_OWN_BYTES GLINT_PATH_STATE(BYTES) + sizeof(scalar) - 1) /
+                           sizeof(scalar) * sizeof(scalar)
          ? 1
          : -1];
+#undef BYTES
 
 typedef struct branches {
     int next_count, waiting_count;
@@ -110,38 +104,40 @@ static inline lanes_int kinds_of_rays(const path *ray)
     return SELECT(ray->looked_up != (lane_int)0, ray->looked_up + (lane_int)(CUT_SHORT - 1), kind);
 }
 
+#define SAVE_REAL3(to, from, lane) save3(to, &(from), lane)
+#define SAVE_REAL(to, from, lane) to = LANE(from, lane)
+#define SAVE_CONE(to, from, lane)                                                                  \
+    to[0] = LANE(from.width, lane);                                                                \
+    to[1] = LANE(from.spread, lane)
+#define SAVE_BITS(to, from, lane) to = LANE_INT(from, lane)
+#define SAVE_COUNT(to, from, lane) to = (int)LANE_INT(from, lane)
+
 static inline void save_branch(const path *ray, const pixels *pixels, lanes_int kinds, int lane,
                                branch *b)
 {
-    save3(b->origin, &ray->origin, lane);
-#if LOCAL_RAYS
-    save3(b->origin_low, &ray->origin_low, lane);
-#endif
-    save3(b->direction, &ray->direction, lane);
-    save3(b->weight, &ray->weight, lane);
-#if CARRIES_CONES
-    b->width = LANE(ray->cone.width, lane);
-    b->spread = LANE(ray->cone.spread, lane);
-#endif
-    b->from = LANE_INT(ray->from, lane);
-    b->media = LANE_INT(ray->media, lane);
-    b->met = (int)LANE_INT(ray->met, lane);
-#if GLINT_ALPHA
-    b->passed = (int)LANE_INT(ray->passed, lane);
-#endif
-#if GLINT_DISPERSION
-    b->dispersed = (int)LANE_INT(ray->dispersed, lane);
-#endif
-#if GLINT_FACETS
-    b->lobe_width = LANE(ray->lobe.width, lane);
-    b->lobe_spread = LANE(ray->lobe.spread, lane);
-#endif
-#if GLINT_ROUGH
-    save3(b->held, &ray->held, lane);
-    b->shown = LANE(ray->shown, lane);
-#endif
+#define SAVE(kind, name, needs, waits, start, meaning)                                             \
+    IF_STORED(needs, waits)(SAVE_##kind(b->name, ray->name, lane);)
+    GLINT_PATH_STATE(SAVE)
+#undef SAVE
     b->kind = (int)LANE_INT(kinds, lane);
     b->pixel = pixel_of(*pixels, lane);
+}
+
+#define RESTORE_REAL3(from, to, lane) restore3(from, &(to), lane)
+#define RESTORE_REAL(from, to, lane) LANE(to, lane) = from
+#define RESTORE_CONE(from, to, lane)                                                               \
+    LANE(to.width, lane) = from[0];                                                                \
+    LANE(to.spread, lane) = from[1]
+#define RESTORE_BITS(from, to, lane) LANE_INT(to, lane) = from
+#define RESTORE_COUNT(from, to, lane) LANE_INT(to, lane) = from
+
+static inline void restore_branch(const branch *b, int lane, path *ray)
+{
+#define RESTORE(kind, name, needs, waits, start, meaning)                                          \
+    IF_STORED(needs, waits)(RESTORE_##kind(b->name, ray->name, lane);)
+    GLINT_PATH_STATE(RESTORE)
+#undef RESTORE
+    LANE_INT(ray->looked_up, lane) = max(b->kind - CUT_SHORT + 1, 0);
 }
 
 // Appends branches to the list that is followed next.
@@ -203,34 +199,7 @@ static inline void take_branches(branches *b, path *rays, pixels *pixels, mask *
     for (int i = 0; i < count; i++) {
         const int place = ends[list[i].kind]++;
         const int lane = place % GLINT_WIDTH;
-        path *ray = &rays[place / GLINT_WIDTH];
-        restore3(list[i].origin, &ray->origin, lane);
-#if LOCAL_RAYS
-        restore3(list[i].origin_low, &ray->origin_low, lane);
-#endif
-        restore3(list[i].direction, &ray->direction, lane);
-        restore3(list[i].weight, &ray->weight, lane);
-#if CARRIES_CONES
-        LANE(ray->cone.width, lane) = list[i].width;
-        LANE(ray->cone.spread, lane) = list[i].spread;
-#endif
-        LANE_INT(ray->from, lane) = list[i].from;
-        LANE_INT(ray->media, lane) = list[i].media;
-#if GLINT_ALPHA
-        LANE_INT(ray->passed, lane) = list[i].passed;
-#endif
-#if GLINT_DISPERSION
-        LANE_INT(ray->dispersed, lane) = list[i].dispersed;
-#endif
-#if GLINT_FACETS
-        LANE(ray->lobe.width, lane) = list[i].lobe_width;
-        LANE(ray->lobe.spread, lane) = list[i].lobe_spread;
-#endif
-#if GLINT_ROUGH
-        restore3(list[i].held, &ray->held, lane);
-        LANE(ray->shown, lane) = list[i].shown;
-#endif
-        LANE_INT(ray->looked_up, lane) = max(list[i].kind - CUT_SHORT + 1, 0);
+        restore_branch(&list[i], lane, &rays[place / GLINT_WIDTH]);
         LANE_INT(pixels[place / GLINT_WIDTH], lane) = list[i].pixel;
     }
     // Mark the rays that exist.

@@ -4,7 +4,7 @@
 // Ray Cones, 2021). Both numbers keep their sign past a focus. At the end of the cone, the
 // environment is read from the levels whose texels are as wide as the cone. Behind rough glass rays
 // carry a second cone: the part of the glass's lobe that one direction of the pixel stands for.
-#define CARRIES_CONES (GLINT_MIP_LEVELS || GLINT_TEXTURES)
+#define CARRIES_CONES GLINT_HAS_CONES(IS_COMPILED)
 #define HEEDS_CURVATURE (CARRIES_CONES || GLINT_FACETS)
 #define READS_LEVELS (GLINT_MIP_LEVELS || GLINT_FACETS) // of the environment
 #if HEEDS_CURVATURE
@@ -13,6 +13,14 @@ typedef struct cone {
     real width;  // across, stored units
     real spread; // growth of the width per unit of length
 } cone;
+
+static inline cone make_cone(real width, real spread)
+{
+    cone made;
+    made.width = width;
+    made.spread = spread;
+    return made;
+}
 
 // The cone of a primary ray whose direction has the length 1/inverse. Its width is the distance to
 // the neighbouring ray, averaged over both axes.

@@ -354,17 +354,6 @@ typedef struct glint_frame_record {
         1, x, y, z, (x) * (y), (y) * (z), (z) * (x), (x) * (x) - (y) * (y), 3 * (z) * (z)-1        \
     }
 
-// ---- Branches ----------------------------------------------------------------------------------
-// The size of a waiting branch in bytes (branches.cl, with GLINT_SPLIT). `number` is the size of a
-// number in the precision. A branch has eleven numbers and three ints. Cones add two numbers,
-// GLINT_ROUGH four, GLINT_FACETS two, and origins that are sums of two floats three. GLINT_ALPHA
-// and GLINT_DISPERSION add one int each. The size is rounded up to whole numbers.
-#define GLINT_BRANCH_BYTES(number, cones, alpha, rough, facets, dispersion, sums)                  \
-    (((number) * (11u + ((cones) ? 2u : 0u) + ((rough) ? 4u : 0u) + ((facets) ? 2u : 0u) +         \
-                  ((sums) ? 3u : 0u)) +                                                            \
-      12u + ((alpha) ? 4u : 0u) + ((dispersion) ? 4u : 0u) + (number)-1) /                         \
-     (number) * (number))
-
 // ---- Layers ------------------------------------------------------------------------------------
 // With GLINT_DIAGNOSTICS: what happened to the paths of each pixel, [height][width]. The first
 // three members describe all samples of the pixel. The others describe the middle sample: of k × k,

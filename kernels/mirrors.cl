@@ -2,7 +2,6 @@
 // and the environment alone. A look-up's direction may have any length, and r = 2n(n·v) − v does
 // not depend on the sign of the normal. So this code normalises and orients no vectors. The normals
 // are sums of the vertices' normals, whose weights need not add up to 1.
-#define IS_COMPILED(name) GLINT_##name
 #define ONE_LOOKUP GLINT_TAKES_ONE_LOOKUP(IS_COMPILED)
 #if ONE_LOOKUP
 

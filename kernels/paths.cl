@@ -9,42 +9,6 @@ static inline real3 absorbed_weight(const scene_buffers *scene, const path *ray,
 }
 #endif
 
-// *ray = *branch for the rays in `yes`.
-static inline void assign_path(path *ray, const path *branch, mask yes)
-{
-    ray->origin = select3(yes, branch->origin, ray->origin);
-#if LOCAL_RAYS
-    ray->origin_low = select3(yes, branch->origin_low, ray->origin_low);
-#endif
-    ray->direction = select3(yes, branch->direction, ray->direction);
-    ray->weight = select3(yes, branch->weight, ray->weight);
-#if GLINT_ABSORPTION
-    ray->travelled = SELECT(yes, branch->travelled, ray->travelled);
-#endif
-#if CARRIES_CONES
-    ray->cone.width = SELECT(yes, branch->cone.width, ray->cone.width);
-    ray->cone.spread = SELECT(yes, branch->cone.spread, ray->cone.spread);
-#endif
-    ray->from = SELECT(yes, branch->from, ray->from);
-    ray->met = SELECT(yes, branch->met, ray->met);
-#if GLINT_ALPHA
-    ray->passed = SELECT(yes, branch->passed, ray->passed);
-#endif
-    ray->media = SELECT(yes, branch->media, ray->media);
-    ray->looked_up = SELECT(yes, branch->looked_up, ray->looked_up);
-#if GLINT_ROUGH
-    ray->held = select3(yes, branch->held, ray->held);
-    ray->shown = SELECT(yes, branch->shown, ray->shown);
-#endif
-#if GLINT_DISPERSION
-    ray->dispersed = SELECT(yes, branch->dispersed, ray->dispersed);
-#endif
-#if GLINT_FACETS
-    ray->lobe.width = SELECT(yes, branch->lobe.width, ray->lobe.width);
-    ray->lobe.spread = SELECT(yes, branch->lobe.spread, ray->lobe.spread);
-#endif
-}
-
 static inline void count_transmissions(const surface *s, mask transmits, tally *tally)
 {
     mask solid = HAS_FLAG(*s, GLINT_MATERIAL_SOLID);

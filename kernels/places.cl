@@ -3,7 +3,7 @@
 // are relative to the anchor. In single precision a ray's origin is the sum of two floats. The
 // difference of two positions is rounded only after the subtraction. So a bead on a wide floor is
 // as exact as the bead alone.
-#define LOCAL_RAYS (GLINT_LOCAL_ORIGINS && !GLINT_DOUBLE)
+#define LOCAL_RAYS GLINT_HAS_LOCAL_RAYS(IS_COMPILED, GLINT_DOUBLE)
 
 // Converts a coordinate along axis k: relative to a cluster's anchor, or to the scene's origin.
 #if GLINT_LOCAL_ORIGINS

@@ -21,7 +21,7 @@ static inline primary primary_of(const tile *t, int group)
 static inline path primary_rays(const glint_frame_record *frame, primary *first)
 {
     real x = first->x, y = first->y;
-    path ray;
+    path ray = path_at_start();
 #if LOCAL_RAYS
     ray.origin = begin_at_eye(frame, x, y, &ray.origin_low);
 #else
@@ -33,29 +33,11 @@ static inline path primary_rays(const glint_frame_record *frame, primary *first)
     real length = length_squared * inverse;
     first->length = length;
     ray.direction = scale(d, inverse);
-    ray.weight = real3_of(real_of(1), real_of(1), real_of(1));
 #if GLINT_ABSORPTION
     ray.travelled = length * JOIN(frame->start[0], frame->start[1]);
 #endif
 #if CARRIES_CONES
     ray.cone = primary_cone(frame, inverse);
-#endif
-    ray.from = int_of(-1);
-    ray.met = int_of(0);
-#if GLINT_ALPHA
-    ray.passed = int_of(0);
-#endif
-    ray.media = int_of(0);
-    ray.looked_up = int_of(0);
-#if GLINT_ROUGH
-    ray.held = real3_of(real_of(0), real_of(0), real_of(0));
-    ray.shown = real_of(1);
-#endif
-#if GLINT_DISPERSION
-    ray.dispersed = int_of(0);
-#endif
-#if GLINT_FACETS
-    ray.lobe.width = ray.lobe.spread = real_of(0);
 #endif
     return ray;
 }

@@ -50,6 +50,7 @@ static inline void probe_rays(global const scalar *in, size_t first, path *rays,
     for (int g = 0; g < PATH_GROUPS; g++) {
         path *ray = &rays[SLOT(g)];
         const size_t packet = first + g;
+        *ray = path_at_start();
         ray->origin = probe_load3(in, packet, GLINT_PROBE_RAY, 0);
 #if LOCAL_RAYS
         ray->origin_low = probe_load3(in, packet, GLINT_PROBE_RAY, 8);
@@ -57,21 +58,6 @@ static inline void probe_rays(global const scalar *in, size_t first, path *rays,
         ray->direction = probe_load3(in, packet, GLINT_PROBE_RAY, 3);
         ray->from = to_int_truncated(probe_load(in, packet, GLINT_PROBE_RAY, 6));
         ray->media = to_int_truncated(probe_load(in, packet, GLINT_PROBE_RAY, 7));
-        ray->weight = real3_of(real_of(1), real_of(1), real_of(1));
-        ray->met = int_of(0);
-#if GLINT_ALPHA
-        ray->passed = int_of(0);
-#endif
-        ray->looked_up = int_of(0);
-#if GLINT_ABSORPTION
-        ray->travelled = real_of(0);
-#endif
-#if CARRIES_CONES
-        ray->cone.width = ray->cone.spread = real_of(0);
-#endif
-#if GLINT_FACETS
-        ray->lobe.width = ray->lobe.spread = real_of(0);
-#endif
         active[SLOT(g)] = mask_all();
     }
 }

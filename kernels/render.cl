@@ -33,6 +33,7 @@ GLINT_FEATURES(CHECK)
 #define HAS_IN(in, name) GLINT_##name
 #endif
 #define HAS(name) HAS_IN(scene, name)
+#define IS_COMPILED(name) GLINT_##name
 
 // Some pixels are rendered in several rounds.
 #define HAS_ROUNDS (GLINT_FACETS || GLINT_DISPERSION)
@@ -48,6 +49,7 @@ GLINT_FEATURES(CHECK)
 
 #include "layout.h"
 #include "arguments.h"
+#include "path_state.h"
 #include "lanes.cl"
 #include "blocks.cl"
 #include "cubemap.cl"

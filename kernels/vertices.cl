@@ -47,16 +47,10 @@ static inline path rays_to_vertices(const glint_frame_record *frame, real3 verti
         join_vector(&frame->direction_y), y,
         scale_add(join_vector(&frame->direction_x), x, scale(join_vector(&frame->direction), h)));
     mask valid, always;
-    path ray;
+    path ray = path_at_start();
     ray.direction = normalized(d, &valid);
     ray.direction = select3(valid, ray.direction, // a vertex at the eye gets the middle ray
                             normalized(join_vector(&frame->direction), &always));
-    ray.media = int_of(0);
-    const real one = real_of(1);
-    ray.weight = real3_of(one, one, one);
-#if GLINT_ABSORPTION
-    ray.travelled = real_of(0);
-#endif
     const real length = sqrt(dot3(d, d));
     const real depth = z + JOIN(frame->start[0], frame->start[1]);
     *distance = frame->image_slope > 0 ? length : fabs(depth / h) * length;

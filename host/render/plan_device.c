@@ -1,10 +1,11 @@
 // Adapts the kernels to the device: packets, tiles, stacks and texels. See plan_device.h.
 #include "render/plan_device.h"
-#include "render/wavelengths.h"
 
 #include "base/half.h"
 #include "environment/mip_levels.h"
 #include "kernels/layout.h"
+#include "kernels/path_state.h"
+#include "render/wavelengths.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -96,18 +97,27 @@ static void choose_stack(const glint_settings *settings, glint_plan *plan)
 #define TILE_BRANCHES(branch_bytes, width, capacity)                                               \
     ((size_t)(branch_bytes)*16 * (size_t)(width) * (size_t)(capacity))
 
-_Static_assert(TILE_BRANCHES(GLINT_BRANCH_BYTES(sizeof(double), 1, 1, 1, 1, 1, 1), LANES_MAX,
+#define BYTES(kind, name, needs, waits, start, meaning) +waits *GLINT_BYTES_##kind(sizeof(double))
+_Static_assert(TILE_BRANCHES(GLINT_BRANCH_OWN_BYTES GLINT_PATH_STATE(BYTES), LANES_MAX,
                              GLINT_STACK_LEAST) <= BRANCHES_MAX_BYTES,
                "general kernels, which have all features, have tiles");
+#undef BYTES
 
+// The size of a branch that waits (kernels/branches.cl).
 static size_t branch_bytes(const glint_plan *plan)
 {
+    const size_t number = glint_plan_scalar_bytes(plan);
+    size_t bytes = GLINT_BRANCH_OWN_BYTES;
 #define IS_COMPILED(name) plan->features[GLINT_FEATURE_##name].compiled
-    return GLINT_BRANCH_BYTES(
-        glint_plan_scalar_bytes(plan), IS_COMPILED(MIP_LEVELS) || IS_COMPILED(TEXTURES),
-        IS_COMPILED(ALPHA), IS_COMPILED(ROUGH), IS_COMPILED(FACETS), IS_COMPILED(DISPERSION),
-        IS_COMPILED(LOCAL_ORIGINS) && plan->precision != GLINT_PRECISION_DOUBLE);
+#define NEED(name, condition) const bool needs_##name = condition;
+    GLINT_PATH_NEEDS(NEED, IS_COMPILED, plan->precision == GLINT_PRECISION_DOUBLE)
+#undef NEED
 #undef IS_COMPILED
+#define ADD(kind, name, needs, waits, start, meaning)                                              \
+    bytes += waits && needs_##needs ? GLINT_BYTES_##kind(number) : 0;
+    GLINT_PATH_STATE(ADD)
+#undef ADD
+    return (bytes + number - 1) / number * number;
 }
 
 // Each pixel of a tile has room for all branches of a path. If this takes too much memory, a
