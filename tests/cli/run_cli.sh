@@ -228,7 +228,7 @@ check 'a reader that leaves is no error' test "${PIPESTATUS[0]}" -eq 0 -a ! -s s
 
 # ---- memory ------------------------------------------------------------------------------------
 
-# A triangle, and 300 buffers of 10 MB in the same file; and 20 million triangles by 20,000 nodes.
+# A triangle, and 300 buffers of 10 MB in the same file; and 60 million triangles by 60,000 nodes.
 { printf %s "$buffer" | base64 -d && head -c 10000000 /dev/zero; } >in/big.bin
 repeat() { # COUNT TEXT: with commas between
     printf "%.0s$2," $(seq "$1") | sed 's/,$//'
@@ -236,8 +236,8 @@ repeat() { # COUNT TEXT: with commas between
 sed "s#\"buffers\": .*#\"buffers\": [$(repeat 300 '{\"byteLength\": 10000000, \"uri\": \"big.bin\"}')]}#" \
     in/mirror.gltf >in/shared.gltf
 cat >in/instanced.gltf <<JSON
-{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [$(seq -s, 0 19999)]}],
- "nodes": [$(repeat 20000 '{\"mesh\": 0}')],
+{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [$(seq -s, 0 59999)]}],
+ "nodes": [$(repeat 60000 '{\"mesh\": 0}')],
  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
                 "min": [-1, -1, 0], "max": [1, 1, 0]},
@@ -252,7 +252,7 @@ if [ -z "${ASAN_OPTIONS-}" ]; then
     check 'buffers of one file are read once' test $? -eq 0 -a ! -s stderr
     (ulimit -v 800000 && "$glint" info in/instanced.gltf >stdout 2>stderr)
     check 'too many triangles: exit status 8' test $? -eq 8 -a "$(wc -l <stderr)" -eq 1
-    check 'too many triangles: a number' grep -q '20000000 triangles take 0.7 GiB, and 0' stderr
+    check 'too many triangles: a number' grep -q '60000000 triangles take 0.9 GiB, and 0' stderr
 else
     skip 'memory' 'AddressSanitizer knows no limit'
 fi
