@@ -58,9 +58,12 @@ static size_t append(glb *to, const void *bytes, size_t size)
     const size_t begin = (to->size + 3) / 4 * 4, end = begin + size;
     if (end > to->capacity) {
         unsigned char *grown = realloc(to->bytes, 2 * end);
-        to->failed = to->failed || grown == NULL;
-        to->bytes = grown != NULL ? grown : to->bytes;
-        to->capacity = grown != NULL ? 2 * end : to->capacity;
+        if (grown == NULL) {
+            to->failed = true;
+            return begin;
+        }
+        to->bytes = grown;
+        to->capacity = 2 * end;
     }
     if (!to->failed && to->bytes != NULL) {
         memset(to->bytes + to->size, 0, begin - to->size);
@@ -72,8 +75,7 @@ static size_t append(glb *to, const void *bytes, size_t size)
 
 static glint_status write_glb(const char *path, const char *json, glb *content, glint_error *error)
 {
-    append(content, "", 0);
-    content->size = (content->size + 3) / 4 * 4;
+    append(content, "", 0); // so that its length is a multiple of four
     const size_t length = strlen(json), padded = (length + 3) / 4 * 4;
     const uint32_t head[] = {0x46546C67, 2, (uint32_t)(28 + padded + content->size),
                              (uint32_t)padded, 0x4E4F534A};

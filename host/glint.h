@@ -22,7 +22,6 @@
 #include "image/image_io.h"
 #include "render/frame.h"
 #include "render/layers.h"
-#include "render/plan_device.h"
 #include "render/plan_make.h"
 #include "render/plan_tree.h"
 #include "scene/camera.h"

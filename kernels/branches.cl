@@ -43,10 +43,10 @@ typedef struct branch {
     int pixel, kind;
 } branch;
 
-// The bytes that the host counts, rounded up to whole numbers.
+// The host counts these bytes, rounded up to whole numbers.
 #define BYTES(kind, name, needs, waits, start, meaning)                                            \
     IF_STORED(needs, waits)(+GLINT_BYTES_##kind(sizeof(scalar)))
-typedef char branch_is_as_large_as_the_host_reckons
+typedef char branch_has_no_gaps
     [sizeof(branch) == (GLINT_BRANCH_OWN_BYTES GLINT_PATH_STATE(BYTES) + sizeof(scalar) - 1) /
                            sizeof(scalar) * sizeof(scalar)
          ? 1
@@ -195,6 +195,9 @@ static inline void take_branches(branches *b, path *rays, pixels *pixels, mask *
     for (int kind = 1; kind < BRANCH_KINDS; kind++) {
         ends[kind] += ends[kind - 1];
     }
+    for (int g = 0; g < TILE_GROUPS; g++) {
+        rays[g] = path_at_start();
+    }
     // Copy each branch to its place.
     for (int i = 0; i < count; i++) {
         const int place = ends[list[i].kind]++;
@@ -205,10 +208,6 @@ static inline void take_branches(branches *b, path *rays, pixels *pixels, mask *
     // Mark the rays that exist.
     for (int g = 0; g < TILE_GROUPS; g++) {
         active[g] = lane_numbers() < (lane_int)(count - g * GLINT_WIDTH);
-        rays[g].met = int_of(count > 0 ? list[0].met : 0);
-#if GLINT_ABSORPTION
-        rays[g].travelled = real_of(0);
-#endif
     }
 }
 

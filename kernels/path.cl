@@ -1,4 +1,4 @@
-// Makes of the table of a path's state (path_state.h): the struct, its start and its assignment.
+// Expands the table of a path's state (path_state.h) to the struct, its start and its assignment.
 
 #define ESCAPES 2
 
@@ -19,6 +19,12 @@
 #define NEEDS_ROUGH GLINT_ROUGH
 #define NEEDS_FACETS GLINT_FACETS
 #define NEEDS_DISPERSION GLINT_DISPERSION
+
+// The host takes the conditions of the table.
+#define NEED(name, condition)                                                                      \
+    typedef char paths_need_##name##_as_on_the_host[NEEDS_##name == ((condition) ? 1 : 0) ? 1 : -1];
+GLINT_PATH_NEEDS(NEED, IS_COMPILED, GLINT_DOUBLE)
+#undef NEED
 
 // IF_BOTH(a, b)(text): the text if both are 1, else nothing.
 #define IF_00(...)

@@ -1,6 +1,6 @@
-// The state of a path: a row for each member. Kernels make the struct, its start, its assignment
-// and the branches that wait of this table (path.cl, branches.cl). The host finds the size of a
-// branch by it.
+// The state of a path: a row for each member. Kernels expand this table to the struct, its start,
+// its assignment, and the branches that wait (path.cl, branches.cl). The host computes a branch's
+// size from it.
 #ifndef GLINT_KERNELS_PATH_STATE_H
 #define GLINT_KERNELS_PATH_STATE_H
 

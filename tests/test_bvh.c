@@ -251,6 +251,77 @@ static void assert_same_tree(const glint_bvh *a, const glint_bvh *b)
     assert_true(a->report.sah_cost == b->report.sah_cost);
 }
 
+// A soup's vertices, each once, the last corner's first.
+typedef struct vertices {
+    uint32_t *indices;
+    float *positions, *normals;
+} vertices;
+
+static bool is_same_place(const float *a, const float *b)
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+static vertices vertices_of(const test_soup *s)
+{
+    const size_t corners = 3 * s->count;
+    const vertices all = {calloc(corners + 1, sizeof *all.indices),
+                          calloc(corners + 1, 3 * sizeof(float)),
+                          calloc(corners + 1, 3 * sizeof(float))};
+    size_t count = 0;
+    assert_non_null(all.indices);
+    assert_non_null(all.positions);
+    assert_non_null(all.normals);
+    for (size_t i = corners; i-- > 0;) {
+        size_t v = 0;
+        while (v < count && !is_same_place(all.positions + 3 * v, s->positions + 3 * i)) {
+            v++;
+        }
+        for (size_t k = 0; k < 3; k++) {
+            all.positions[3 * v + k] = s->positions[3 * i + k];
+            all.normals[3 * v + k] = s->normals[3 * i + k];
+        }
+        count = v == count ? count + 1 : count;
+        all.indices[i] = (uint32_t)v;
+    }
+    assert_true(count < corners / 5);
+    return all;
+}
+
+// Normals are by vertex or by corner.
+static void indices_give_the_same_tree(void **state)
+{
+    (void)state;
+    test_soup s = test_soup_sheet(40);
+    for (size_t i = 0; i < 3 * s.count; i++) { // normals that differ by vertex
+        s.normals[3 * i] = s.positions[3 * i];
+    }
+    const vertices all = vertices_of(&s);
+    glint_bvh expected = test_tree_build(&s, 16), shared, mixed;
+    glint_bvh_inputs in = test_tree_inputs(&s, 16);
+    in.indices = all.indices;
+    in.positions = all.positions;
+    in.normals = all.normals;
+    assert_int_equal(glint_bvh_build(&in, &shared, NULL), GLINT_OK);
+    assert_same_tree(&shared, &expected);
+    assert_true(glint_bvh_refit(&in, &shared)); // to the same places
+    assert_memory_equal(shared.clusters, expected.clusters,
+                        expected.cluster_count * sizeof *expected.clusters);
+    assert_memory_equal(shared.normals, expected.normals,
+                        expected.cluster_count * GLINT_CLUSTER_NORMALS * sizeof(float));
+    in.normals = s.normals;
+    in.has_normals_by_corner = true;
+    assert_int_equal(glint_bvh_build(&in, &mixed, NULL), GLINT_OK);
+    assert_same_tree(&mixed, &expected);
+    glint_bvh_free(&expected);
+    glint_bvh_free(&shared);
+    glint_bvh_free(&mixed);
+    free(all.indices);
+    free(all.positions);
+    free(all.normals);
+    test_soup_free(&s);
+}
+
 static void any_number_of_threads_gives_the_same_tree(void **state)
 {
     (void)state;
@@ -312,6 +383,7 @@ int main(void)
         cmocka_unit_test(triangles_that_all_have_no_area_give_a_root_that_no_ray_meets),
         cmocka_unit_test(a_detail_inside_large_triangles_is_divided),
         cmocka_unit_test(the_largest_finite_coordinates_do_no_harm),
+        cmocka_unit_test(indices_give_the_same_tree),
         cmocka_unit_test(any_number_of_threads_gives_the_same_tree),
         cmocka_unit_test(no_triangles_give_an_empty_tree),
         cmocka_unit_test(more_triangles_than_a_place_can_name_are_refused),

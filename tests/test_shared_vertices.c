@@ -206,6 +206,50 @@ static void vertices_are_stored_once(void **state)
     glint_scene_free(&scene);
 }
 
+// Many files share one large array among small primitives. Each stores only the vertices that it
+// uses, once, whether they stand together in the array or far apart.
+static void small_primitives_of_large_arrays_share_vertices(void **state)
+{
+    enum { MANY = 30000 };
+    typedef struct large {
+        file_vertex vertices[MANY];
+        uint32_t indices[12];
+    } large;
+    large *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    for (int i = 0; i < MANY; i++) {
+        const float place[3] = {(float)(i & 1), (float)(i >> 1 & 1), (float)i / MANY};
+        memcpy(l->vertices[i].position, place, sizeof place);
+    }
+    static const uint32_t together[6] = {20000, 20001, 20002, 20002, 20001, 20003};
+    static const uint32_t apart[6] = {0, 1, 20002, 20002, 1, 29999};
+    memcpy(l->indices, together, sizeof together);
+    memcpy(l->indices + 6, apart, sizeof apart);
+    char storage[2048], rest[4096];
+    for (int i = 0; i < 2; i++) {
+        put_storage(MANY, 12, storage, sizeof storage);
+        char *end = strrchr(storage, '{'); // the indices' accessor
+        snprintf(end, sizeof storage - (size_t)(end - storage),
+                 "{\"bufferView\":3,\"byteOffset\":%d,\"componentType\":5125,\"count\":6,"
+                 "\"type\":\"SCALAR\"}],",
+                 24 * i);
+        snprintf(rest, sizeof rest,
+                 "%s\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
+                 "\"indices\":3}]}],\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}]",
+                 storage);
+        glint_scene scene = load_rest(*state, l, sizeof *l, rest);
+        assert_int_equal(scene.triangle_count, 2);
+        assert_int_equal(glint_scene_vertex_count(&scene), i == 0 ? 4 : 6);
+        for (size_t k = 0; k < 6; k++) {
+            const float *at = l->vertices[l->indices[6 * (size_t)i + k]].position;
+            const glint_vec3 p = glint_scene_corner(&scene, k / 3, k % 3);
+            assert_true(fabs(p.z * scene.unit + scene.origin.z - (double)at[2]) < 1e-6);
+        }
+        glint_scene_free(&scene);
+    }
+    free(l);
+}
+
 // A fan of many triangles around a vertex without a normal: each triangle needs a tangent of its
 // own.
 static void a_vertex_of_many_triangles_takes_linear_time(void **state)
@@ -245,6 +289,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(indices_change_no_corner),
         cmocka_unit_test(vertices_are_stored_once),
+        cmocka_unit_test(small_primitives_of_large_arrays_share_vertices),
         cmocka_unit_test(a_vertex_of_many_triangles_takes_linear_time),
     };
     return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);

@@ -8,7 +8,8 @@
 #include <stdint.h>
 #include <string.h>
 
-#define GLINT_NO_ITEM 0xFFFFFFFFu // in an empty slot
+#define GLINT_NO_ITEM 0xFFFFFFFFu             // in an empty slot
+#define GLINT_HASH_FACTOR 0x9E3779B97F4A7C15u // 2^64 over the golden ratio
 
 // Zero is valid: no table.
 typedef struct glint_hash_table {
@@ -25,25 +26,25 @@ typedef bool glint_is_sought(const void *sought, uint32_t item);
 bool glint_hash_table_create(size_t items, glint_hash_table *table);
 void glint_hash_table_free(glint_hash_table *table);
 
-// Empties the table for some items, at most as many as it was made for. A table for few items is
-// fast to empty.
+// Empties the table for a number of different items, at most as many as it was made for. `items`
+// may be larger if it counts equal ones, too. A table for few items is fast to empty.
 void glint_hash_table_empty(glint_hash_table *table, size_t items);
 
 // Returns the slot that holds the sought item, or else the empty slot where it belongs.
 static inline uint32_t *glint_hash_table_slot(const glint_hash_table *table, uint64_t hash,
                                               glint_is_sought *is_sought, const void *sought)
 {
-    size_t slot = (size_t)hash & table->mask;
+    size_t slot = (size_t)(((hash ^ hash >> 32) * GLINT_HASH_FACTOR) >> 32) & table->mask;
     while (table->slots[slot] != GLINT_NO_ITEM && !is_sought(sought, table->slots[slot])) {
         slot = (slot + 1) & table->mask;
     }
     return &table->slots[slot];
 }
 
-// Mixes a word into a hash. All bits of the result depend on both.
+// Mixes a word into a hash. glint_hash_table_slot spreads the result over all bits.
 static inline uint64_t glint_hash_mix(uint64_t hash, uint64_t word)
 {
-    hash = (hash ^ word) * 0x9E3779B97F4A7C15u;
+    hash = (hash ^ word) * GLINT_HASH_FACTOR;
     return hash ^ hash >> 29;
 }
 

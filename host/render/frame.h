@@ -62,9 +62,9 @@ glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_re
                                    glint_error *error);
 
 // Replaces the scene for the next frames. Makes its plan, builds its tree or refits the last tree
-// (see accel/bvh.h), and uploads both. Compiles kernels only if the plan changed; the environment
-// stays. The scene is borrowed during the call. Errors as above. After a failure, the renderer
-// renders no frame until it gets another scene.
+// (see accel/bvh_build.h), and uploads both. Compiles kernels only if the plan changed; the
+// environment stays. The scene is borrowed during the call. Errors as above. After a failure, the
+// renderer renders no frame until it gets another scene.
 glint_status glint_renderer_set_scene(glint_renderer *renderer, const glint_scene *scene,
                                       glint_error *error);
 

@@ -97,9 +97,13 @@ static void choose_stack(const glint_settings *settings, glint_plan *plan)
 #define TILE_BRANCHES(branch_bytes, width, capacity)                                               \
     ((size_t)(branch_bytes)*16 * (size_t)(width) * (size_t)(capacity))
 
-#define BYTES(kind, name, needs, waits, start, meaning) +waits *GLINT_BYTES_##kind(sizeof(double))
-_Static_assert(TILE_BRANCHES(GLINT_BRANCH_OWN_BYTES GLINT_PATH_STATE(BYTES), LANES_MAX,
-                             GLINT_STACK_LEAST) <= BRANCHES_MAX_BYTES,
+#define WHOLE_NUMBERS(bytes, number) (((bytes) + (number)-1) / (number) * (number))
+
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a term of a sum
+#define BYTES(kind, name, needs, waits, start, meaning) +(waits)*GLINT_BYTES_##kind(sizeof(double))
+_Static_assert(TILE_BRANCHES(WHOLE_NUMBERS(GLINT_BRANCH_OWN_BYTES GLINT_PATH_STATE(BYTES),
+                                           sizeof(double)),
+                             LANES_MAX, GLINT_STACK_LEAST) <= BRANCHES_MAX_BYTES,
                "general kernels, which have all features, have tiles");
 #undef BYTES
 
@@ -114,10 +118,10 @@ static size_t branch_bytes(const glint_plan *plan)
 #undef NEED
 #undef IS_COMPILED
 #define ADD(kind, name, needs, waits, start, meaning)                                              \
-    bytes += waits && needs_##needs ? GLINT_BYTES_##kind(number) : 0;
+    bytes += (waits) && needs_##needs ? GLINT_BYTES_##kind(number) : 0;
     GLINT_PATH_STATE(ADD)
 #undef ADD
-    return (bytes + number - 1) / number * number;
+    return WHOLE_NUMBERS(bytes, number);
 }
 
 // Each pixel of a tile has room for all branches of a path. If this takes too much memory, a

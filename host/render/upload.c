@@ -203,7 +203,7 @@ static glint_status upload_materials(const glint_upload_inputs *in, glint_geomet
     glint_medium_record *media = media_records(in, &media_count);
     float *attributes = attributes_by_corner(scene);
     if (materials == NULL || media == NULL || (attributes == NULL && scene->attributes != NULL)) {
-        status = glint_fail_memory(error, "the materials");
+        status = glint_fail_memory(error, "the materials and the vertices' attributes");
         goto cleanup;
     }
     // Fill the records.

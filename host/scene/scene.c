@@ -1,6 +1,8 @@
 // Frees scenes, computes their bounds, and finds cameras. gltf/open.c loads scenes.
 #include "scene/scene.h"
 
+#include "base/memory.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -64,14 +66,31 @@ void glint_scene_free(glint_scene *scene)
     *scene = (glint_scene){0};
 }
 
+size_t glint_scene_bytes(const glint_scene *scene)
+{
+    const bool about_parts = scene->parts.count > 0;
+    const size_t words = (scene->indices != NULL ? 3 : 0) + (about_parts ? 2U : 1U);
+    const size_t floats = (scene->normals != NULL ? 6U : 3U) + (about_parts ? 3U : 0U) +
+                          glint_attributes_stride(&scene->attribute_set);
+    return scene->triangle_count * words * sizeof(uint32_t) +
+           glint_scene_vertex_count(scene) * floats * sizeof(float);
+}
+
 static bool resize(float **array, size_t stride, size_t vertices)
 {
-    float *resized = *array;
-    if (resized != NULL && stride > 0 && vertices > 0) {
-        resized = realloc(resized, stride * vertices * sizeof *resized);
-        *array = resized != NULL ? resized : *array;
+    size_t bytes;
+    if (*array == NULL || stride == 0 || vertices == 0) {
+        return true;
     }
-    return resized != NULL || *array == NULL;
+    if (!glint_multiply(vertices, stride * sizeof **array, &bytes)) {
+        return false;
+    }
+    float *resized = realloc(*array, bytes);
+    if (resized == NULL) {
+        return false;
+    }
+    *array = resized;
+    return true;
 }
 
 bool glint_scene_resize_vertices(glint_scene *scene, size_t vertices)

@@ -76,8 +76,8 @@ typedef struct glint_scene {
     size_t triangle_count;
     // [triangle_count][3], the triangles' vertices; owned. They wind counter-clockwise seen from
     // outside. If a node mirrors, the winding is swapped, as glTF requires. A vertex belongs to
-    // triangles of one instance and one part, and to at least one. NULL: corner c of triangle t is
-    // vertex 3 t + c.
+    // triangles of one instance, one part and one material, and to at least one. NULL: corner c of
+    // triangle t is vertex 3 t + c.
     uint32_t *indices;
     size_t vertex_count; // with indices; see glint_scene_vertex_count
     float *positions;    // [vertex][3], owned
@@ -179,14 +179,8 @@ static inline glint_vec3 glint_scene_corner(const glint_scene *scene, size_t tri
                           glint_vec3_from_floats(p));
 }
 
-// Returns the bytes of a scene's arrays.
-static inline size_t glint_scene_bytes(size_t triangles, size_t vertices, bool with_normals,
-                                       const glint_attributes *set)
-{
-    const size_t indices = vertices < 3 * triangles ? 3 : 0;
-    return triangles * (1 + indices) * sizeof(uint32_t) +
-           vertices * ((with_normals ? 6 : 3) + glint_attributes_stride(set)) * sizeof(float);
-}
+// Returns the bytes of the arrays of triangles and vertices.
+size_t glint_scene_bytes(const glint_scene *scene);
 
 typedef struct glint_scene_options {
     const char *scene;     // the glTF scene, by name or index; NULL: the file's default, else 0
@@ -243,8 +237,9 @@ void glint_scene_close(glint_scene_source *source); // NULL is allowed
 // animation.
 void glint_scene_shown_bounds(const glint_scene *scene, glint_vec3 *low, glint_vec3 *high);
 
-// Gives the vertices' arrays room for `vertices` vertices, or takes room away. Returns false if
-// memory is short; the arrays are then valid, some with the old room.
+// Gives the vertices' arrays room for `vertices` vertices, or takes room away. The arrays need not
+// stay aligned. Returns false if memory is short; the arrays are then valid, some with the old
+// room.
 bool glint_scene_resize_vertices(glint_scene *scene, size_t vertices);
 
 // Sets the bounds from the triangles.

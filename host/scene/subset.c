@@ -235,11 +235,14 @@ static glint_status part(glint_scene *scene, const char *nodes, bool keeps, glin
         return glint_fail_memory(error, "the scene's materials");
     }
     bool *is_marked;
+    glint_vec3 low, high;
     glint_status status;
     TRY_OR(cleanup, status, mark_nodes(scene, nodes, &is_marked, error));
-    find_bounds(scene, is_marked, keeps, &scene->low, &scene->high);
+    find_bounds(scene, is_marked, keeps, &low, &high);
     if (drop(scene, is_marked, !keeps)) {
         drop_materials(scene, place);
+        scene->low = low;
+        scene->high = high;
     } else {
         status = glint_fail_memory(error, "the scene's vertices");
     }

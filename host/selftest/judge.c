@@ -31,7 +31,6 @@ static const float *copy_numbers(const float *from, size_t count, double *to)
     return from + count;
 }
 
-// Returns the attributes of the next corner.
 static void copy_corner(const glint_attributes *set, const float *from, oracle_corner *corner)
 {
     *corner = (oracle_corner){.color = {1, 1, 1, 1}};

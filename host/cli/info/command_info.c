@@ -75,9 +75,7 @@ static void print_scene(const glint_scene *scene, const glint_topology *topology
            scene->instance_count, scene->material_count, scene->camera_count);
     if (scene->triangle_count > 0) {
         const double mib = 1 << 20;
-        const size_t bytes =
-            glint_scene_bytes(scene->triangle_count, glint_scene_vertex_count(scene),
-                              scene->normals != NULL, &scene->attribute_set);
+        const size_t bytes = glint_scene_bytes(scene);
         printf("  memory: %.1f MiB, and up to %.1f MiB to build the tree\n", (double)bytes / mib,
                (double)(scene->triangle_count * GLINT_BVH_BYTES_WHILE_BUILT) / mib);
         if (scene->textures != NULL) {

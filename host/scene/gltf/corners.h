@@ -12,6 +12,7 @@ typedef struct glint_corner {
 
 typedef struct glint_corners {
     glint_corner of[3]; // in stored order
+    size_t triangle;    // of the draw
 } glint_corners;
 
 // True if the triangle is stored with the other winding: its node mirrors it, or its joints turn it
@@ -44,7 +45,8 @@ static inline glint_corners glint_draw_corners(const glint_draw *draw, size_t t,
 {
     return (glint_corners){{glint_draw_corner(draw, t, 0),
                             glint_draw_corner(draw, t, winds_back ? 2 : 1),
-                            glint_draw_corner(draw, t, winds_back ? 1 : 2)}};
+                            glint_draw_corner(draw, t, winds_back ? 1 : 2)},
+                           t};
 }
 
 static inline bool glint_corners_equal(glint_vec3 a, glint_vec3 b)

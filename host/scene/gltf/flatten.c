@@ -1,6 +1,6 @@
 // Flattens the scene in two passes over the drawn triangles. The first pass finds the bounds, which
 // give origin and unit (frame.h); the second stores. World positions in double exist only during
-// the work on them. So the scene's arrays take all the memory. See flatten.h.
+// the work on them. See flatten.h.
 #include "scene/gltf/flatten.h"
 
 #include "base/free_memory.h"
@@ -19,7 +19,7 @@ static const size_t bytes_of_search = 320;
 
 // The vertex that stands for a place of the current draw.
 typedef struct known_vertex {
-    uint32_t number; // 1 + its number in the scene; at most `first`: it is one of another draw
+    uint32_t number; // 1 + its number in the scene. Values up to `first` belong to earlier draws
     uint32_t part;
 } known_vertex;
 
@@ -32,10 +32,17 @@ typedef struct scene_writer {
     float low[3], high[3];
 } scene_writer;
 
+// The places of a draw that its corners may have.
+typedef struct draw_places {
+    size_t first, count; // numbers of places: elements of the shape, or vertices
+    bool is_per_corner;  // each corner has a place of its own: 3 t + c
+} draw_places;
+
 // What the vertices of a draw share.
 typedef struct draw_writer {
     const glint_draw *draw;
     uint32_t material;
+    draw_places places;
     glint_vec3 turned[3]; // the normals of the axes
 } draw_writer;
 
@@ -52,10 +59,36 @@ static float *told_at(const glint_scene *scene, size_t vertex)
     return (scene->parts.count > 0 ? scene->parts.positions : scene->positions) + 3 * vertex;
 }
 
-static known_vertex *known_at(const scene_writer *writer, const glint_draw *draw,
-                              const glint_corner *corner)
+// Counts as many places as the draw's triangles need, not as many as its arrays have: files share
+// large arrays among many primitives.
+static draw_places places_of(const glint_draw *draw)
 {
-    return &writer->known[draw->shape != NULL ? corner->element : corner->vertex];
+    const glint_primitive *primitive = draw->primitive;
+    const size_t corners = 3 * primitive->triangles, vertices = primitive->positions.count;
+    if (draw->shape != NULL) {
+        return (draw_places){0, draw->shape->is_per_corner ? corners : vertices, false};
+    }
+    if (vertices <= 3 * corners) {
+        return (draw_places){0, vertices, false};
+    }
+    size_t low = vertices, high = 0;
+    for (size_t i = 0; i < corners; i++) {
+        const size_t vertex = glint_primitive_vertex(primitive, i / 3, i % 3);
+        low = vertex < low ? vertex : low;
+        high = vertex > high ? vertex : high;
+    }
+    return corners > 0 && high - low < 3 * corners ? (draw_places){low, high - low + 1, false}
+                                                   : (draw_places){0, corners, true};
+}
+
+static known_vertex *known_at(const scene_writer *writer, const draw_writer *of,
+                              const glint_corners *corners, size_t c)
+{
+    const glint_corner *corner = &corners->of[c];
+    const size_t place = of->places.is_per_corner  ? 3 * corners->triangle + c
+                         : of->draw->shape != NULL ? corner->element
+                                                   : corner->vertex;
+    return &writer->known[place - of->places.first];
 }
 
 static bool is_known(const scene_writer *writer, const known_vertex *known, uint32_t part)
@@ -64,16 +97,15 @@ static bool is_known(const scene_writer *writer, const known_vertex *known, uint
 }
 
 // Sets the positions of a triangle's corners, relative to the anchor of its part.
-static void tell_corners(const scene_writer *writer, const glint_draw *draw,
+static void tell_corners(const scene_writer *writer, const draw_writer *of,
                          const glint_corners *corners, uint32_t part, float told[3][3])
 {
-    for (int c = 0; c < 3; c++) {
-        const glint_corner *corner = &corners->of[c];
-        const known_vertex *known = known_at(writer, draw, corner);
+    for (size_t c = 0; c < 3; c++) {
+        const known_vertex *known = known_at(writer, of, corners, c);
         if (is_known(writer, known, part)) {
             memcpy(told[c], told_at(writer->scene, known->number - 1), sizeof told[c]);
         } else {
-            const glint_vec3 p = stored_place(writer->scene, draw, corner->local);
+            const glint_vec3 p = stored_place(writer->scene, of->draw, corners->of[c].local);
             glint_parts_tell(&writer->scene->parts, part, (const double[3]){p.x, p.y, p.z},
                              told[c]);
         }
@@ -140,13 +172,13 @@ static void write_triangle(scene_writer *writer, const draw_writer *of,
     const uint32_t part = about_parts ? scene->parts.part_of[writer->taken] : 0;
     float told[3][3];
     writer->taken++;
-    tell_corners(writer, of->draw, corners, part, told);
+    tell_corners(writer, of, corners, part, told);
     if (!glint_triangle_has_area(told[0], told[1], told[2])) {
         scene->degenerate_triangles++;
         return;
     }
     for (size_t c = 0; c < 3; c++) {
-        known_vertex *known = known_at(writer, of->draw, &corners->of[c]);
+        known_vertex *known = known_at(writer, of, corners, c);
         if (!is_known(writer, known, part)) {
             known->number = write_vertex(writer, of, &corners->of[c], part, told[c]) + 1;
             known->part = part;
@@ -163,6 +195,7 @@ static void write_draw(scene_writer *writer, const glint_draw *draw, uint32_t ma
 {
     const draw_writer of = {draw,
                             material,
+                            places_of(draw),
                             {glint_mat4_normal(&draw->to_world, (glint_vec3){1, 0, 0}),
                              glint_mat4_normal(&draw->to_world, (glint_vec3){0, 1, 0}),
                              glint_mat4_normal(&draw->to_world, (glint_vec3){0, 0, 1})}};
@@ -206,11 +239,25 @@ glint_status glint_flatten_check_count(size_t triangles, glint_error *error)
                             triangles, most_triangles);
 }
 
+// Sizes of a scene's arrays.
+typedef struct scene_size {
+    size_t draws, triangles;
+    size_t vertices; // an upper bound
+    size_t places;   // of the draw that has the most
+    bool with_normals;
+} scene_size;
+
 // Checks the free memory before touching the arrays: otherwise they would displace other programs'
 // memory.
-static glint_status check_memory(size_t triangles, size_t bytes, glint_error *error)
+static glint_status check_memory(const scene_size *size, const glint_attributes *set,
+                                 glint_error *error)
 {
     const double gib = 1 << 30;
+    const size_t floats = (size->with_normals ? 6U : 3U) + glint_attributes_stride(set);
+    const size_t triangles = size->triangles;
+    const size_t bytes = triangles * 4 * sizeof(uint32_t) +
+                         size->vertices * floats * sizeof(float) +
+                         size->places * sizeof(known_vertex);
     const uint64_t left = glint_free_memory();
     return bytes <= left
                ? GLINT_OK
@@ -220,14 +267,6 @@ static glint_status check_memory(size_t triangles, size_t bytes, glint_error *er
                             triangles, round((double)bytes / gib * 10) / 10,
                             round((double)left / gib * 10) / 10);
 }
-
-// Sizes of a scene's arrays.
-typedef struct scene_size {
-    size_t draws, triangles;
-    size_t vertices; // an upper bound
-    size_t places;   // of the draw that has the most
-    bool with_normals;
-} scene_size;
 
 static glint_status allocate(scene_writer *writer, const scene_size *size, glint_error *error)
 {
@@ -253,8 +292,8 @@ static glint_status allocate(scene_writer *writer, const scene_size *size, glint
     return is_whole ? GLINT_OK : glint_fail_memory(error, "the scene");
 }
 
-// Gives back the memory beyond the vertices; failing to do so does no harm. Drops indices that say
-// nothing.
+// Gives back the memory beyond the vertices; failing to do so does no harm. Drops the indices if no
+// triangle shares a vertex.
 static void finish_arrays(glint_scene *scene)
 {
     (void)glint_scene_resize_vertices(scene, scene->vertex_count);
@@ -376,16 +415,14 @@ static void finish_bounds(const scene_writer *writer)
     scene->high = glint_vec3_add(scene->origin, glint_vec3_scale(to, scene->unit));
 }
 
-// Counts what the draws need. A vertex that lies in several parts is stored once for each.
+// Counts what the draws need. A vertex that lies in several parts may be stored for each corner.
 static scene_size measure(const glint_load *load, const glint_scene *scene)
 {
     scene_size size = {.draws = load->draw_count};
     for (size_t i = 0; i < load->draw_count; i++) {
         const glint_draw *draw = &load->draws[i];
         const glint_primitive *primitive = draw->primitive;
-        const bool is_per_corner = draw->shape != NULL && draw->shape->is_per_corner;
-        const size_t corners = 3 * primitive->triangles, vertices = primitive->positions.count;
-        const size_t places = is_per_corner ? corners : vertices;
+        const size_t corners = 3 * primitive->triangles, places = places_of(draw).count;
         size.triangles += primitive->triangles; // at most 2^22 draws of 2^40
         size.vertices += places < corners && scene->parts.count == 0 ? places : corners;
         size.places = places > size.places ? places : size.places;
@@ -402,10 +439,7 @@ glint_status glint_flatten(glint_load *load, glint_scene *scene, glint_error *er
     TRY(deform(load, size.with_normals, error));
     TRY(glint_frame_choose(load, scene, &smallest, error));
     scene->attribute_set = glint_attributes_needed(load);
-    TRY(check_memory(
-        size.triangles,
-        glint_scene_bytes(size.triangles, size.vertices, size.with_normals, &scene->attribute_set),
-        error));
+    TRY(check_memory(&size, &scene->attribute_set, error));
     // Before the arrays take their memory.
     if (glint_parts_may_be_there(smallest) &&
         bytes_of_search * size.triangles <= glint_free_memory() / 2) {
