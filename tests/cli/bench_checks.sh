@@ -144,10 +144,10 @@ clean
 
 # ---- wrong pictures -----------------------------------------------------------------------------
 
-# breaks FOLDER WEIGHT: copies the kernels with another start weight of primary rays.
+# breaks FOLDER WEIGHT: copies the kernels with another start weight of paths.
 breaks() {
     cp -r "$root/kernels" "$1"
-    sed -i "/ray\.weight = /s/real_of(1)/real_of($2)/g" "$1"/*.cl
+    sed -i "s/weight, ALWAYS, 1, 1,/weight, ALWAYS, 1, $2,/" "$1/path_state.h"
     ! diff -qr "$root/kernels" "$1" >/dev/null
 }
 check 'kernels that make pictures two per cent too bright' breaks too_bright 1.02f
