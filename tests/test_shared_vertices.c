@@ -40,7 +40,8 @@ static mesh make_mesh(glint_random *random)
     mesh m = {0};
     for (int i = 0; i < VERTICES; i++) {
         file_vertex *v = &m.vertices[i];
-        const float x = (float)(i % SIDE) - SIDE / 2, z = (float)(i / SIDE % SIDE) - SIDE / 2;
+        const int column = i % SIDE - SIDE / 2, row = i / SIDE % SIDE - SIDE / 2;
+        const float x = (float)column, z = (float)row;
         const float up = (float)glint_random_number(random);
         memcpy(v->position, (float[]){x, 0.3F * up, z}, sizeof v->position);
         memcpy(v->normal, (float[]){0.3F * up, 0.9F, -0.2F * up}, sizeof v->normal);
