@@ -149,7 +149,9 @@ static void assert_vertices_serve(const glint_scene *scene)
     const uint32_t none = UINT32_MAX;
     uint32_t *instance_of = malloc(scene->vertex_count * sizeof *instance_of);
     uint32_t *part_of = malloc(scene->vertex_count * sizeof *part_of);
-    assert_true(scene->indices != NULL && instance_of != NULL && part_of != NULL);
+    assert_non_null(scene->indices);
+    assert_non_null(instance_of);
+    assert_non_null(part_of);
     memset(instance_of, 0xFF, scene->vertex_count * sizeof *instance_of);
     for (uint32_t i = 0; i < scene->instance_count; i++) {
         const glint_instance *instance = &scene->instances[i];
