@@ -2,6 +2,8 @@
 // one packet: element i of an array is lane i % GLINT_WIDTH. `in` and `out` hold 4 numbers an
 // element.
 #include "layout.h"
+#include "path_state.h"
+#define IS_COMPILED(name) GLINT_##name
 #include "lanes.cl"
 #include "cubemap.cl"
 #include "optics.cl"
