@@ -18,9 +18,9 @@ struct Range {
 // The ranges of the factors, by their names.
 namespace range
 {
-#define FACTOR(member, numbers, least, most) constexpr Range member = {least, most};
-GLINT_MATERIAL_FACTORS(FACTOR)
-#undef FACTOR
+#define RANGE_OF(kind, name, least, most, ...) constexpr Range name = {least, most};
+GLINT_MATERIAL_TABLE(RANGE_OF)
+#undef RANGE_OF
 } // namespace range
 
 constexpr Range share = {0, 1};
@@ -111,55 +111,17 @@ void read_ior(const Numbers &from, glint_material &result)
     result.ior = from.number("ior", range::ior, 1.5);
 }
 
-void read_clearcoat(const Numbers &from, glint_material &result)
+void read_thickness_of_film(const Numbers &from, glint_material &result)
 {
-    result.clearcoat = from.number("clearcoatFactor", range::clearcoat, 0);
-    result.clearcoat_roughness =
-        from.number("clearcoatRoughnessFactor", range::clearcoat_roughness, 0);
-    result.clearcoat_normal_scale =
-        from.of("clearcoatNormalTexture").number("scale", range::clearcoat_normal_scale, 1);
+    float *thickness = result.iridescence_thickness;
+    thickness[0] = from.number("iridescenceThicknessMinimum", range::iridescence_thickness,
+                               double(thickness[0]));
+    thickness[1] = from.number("iridescenceThicknessMaximum", range::iridescence_thickness,
+                               double(thickness[1]));
 }
 
-void read_anisotropy(const Numbers &from, glint_material &result)
+void read_distance(const Numbers &from, glint_material &result)
 {
-    result.anisotropy = from.number("anisotropyStrength", range::anisotropy, 0);
-    result.anisotropy_rotation = from.number("anisotropyRotation", range::anisotropy_rotation, 0);
-}
-
-void read_sheen(const Numbers &from, glint_material &result)
-{
-    from.color("sheenColorFactor", 3, range::sheen_color, result.sheen_color);
-    result.sheen_roughness = from.number("sheenRoughnessFactor", range::sheen_roughness, 0);
-}
-
-void read_specular(const Numbers &from, glint_material &result)
-{
-    result.specular = from.number("specularFactor", range::specular, 1);
-    from.color("specularColorFactor", 3, range::specular_color, result.specular_color);
-}
-
-void read_diffuse_transmission(const Numbers &from, glint_material &result)
-{
-    result.diffuse_transmission =
-        from.number("diffuseTransmissionFactor", range::diffuse_transmission, 0);
-    from.color("diffuseTransmissionColorFactor", 3, range::diffuse_transmission_color,
-               result.diffuse_transmission_color);
-}
-
-void read_iridescence(const Numbers &from, glint_material &result)
-{
-    result.iridescence = from.number("iridescenceFactor", range::iridescence, 0);
-    result.iridescence_ior = from.number("iridescenceIor", range::iridescence_ior, 1.3);
-    result.iridescence_thickness[0] =
-        from.number("iridescenceThicknessMinimum", range::iridescence_thickness, 100);
-    result.iridescence_thickness[1] =
-        from.number("iridescenceThicknessMaximum", range::iridescence_thickness, 400);
-}
-
-void read_volume(const Numbers &from, glint_material &result)
-{
-    result.thickness = from.number("thicknessFactor", range::thickness, 0);
-    from.color("attenuationColor", 3, range::attenuation_color, result.attenuation_color);
     const json *distance = member(from.object(), "attenuationDistance");
     if (distance == nullptr) { // or null: JSON cannot store infinity
         return;
@@ -216,25 +178,39 @@ void read_specular_glossiness(const Numbers &from, glint_material &result)
     result.alpha = diffuse[3];
 }
 
+// Reads the values whose rows have a key.
+void read_plain_values(const Numbers &material, glint_material &result)
+{
+    const Numbers extensions = material.of("extensions");
+    for (std::size_t i = 0; i < glint_material_value_count; i++) {
+        const glint_material_value &value = glint_material_values[i];
+        if (value.key == nullptr) {
+            continue;
+        }
+        const Numbers from = value.extension == nullptr ? material.of("pbrMetallicRoughness")
+                                                        : extensions.of(value.extension);
+        auto *numbers = reinterpret_cast<float *>(reinterpret_cast<char *>(&result) + value.offset);
+        const Range range = {value.least, value.most};
+        if (value.count == 1) {
+            *numbers = from.number(value.key, range, double(*numbers));
+        } else {
+            from.color(value.key, static_cast<std::size_t>(value.count), range, numbers);
+        }
+    }
+}
+
 void read_extensions(const Numbers &material, glint_material &result)
 {
     const Numbers extensions = material.of("extensions");
-    auto has = [&](const char *name) { return member(extensions.object(), name) != nullptr; };
-    result.transmission = extensions.of("KHR_materials_transmission")
-                              .number("transmissionFactor", range::transmission, 0);
-    if (has(specular_glossiness)) {
+    if (member(extensions.object(), specular_glossiness) != nullptr) {
         read_specular_glossiness(extensions.of(specular_glossiness), result);
     }
-    read_volume(extensions.of("KHR_materials_volume"), result);
-    result.dispersion =
-        extensions.of("KHR_materials_dispersion").number("dispersion", range::dispersion, 0);
+    read_distance(extensions.of("KHR_materials_volume"), result);
     read_ior(extensions.of("KHR_materials_ior"), result);
-    read_specular(extensions.of("KHR_materials_specular"), result);
-    read_clearcoat(extensions.of("KHR_materials_clearcoat"), result);
-    read_anisotropy(extensions.of("KHR_materials_anisotropy"), result);
-    read_sheen(extensions.of("KHR_materials_sheen"), result);
-    read_diffuse_transmission(extensions.of("KHR_materials_diffuse_transmission"), result);
-    read_iridescence(extensions.of("KHR_materials_iridescence"), result);
+    result.clearcoat_normal_scale = extensions.of("KHR_materials_clearcoat")
+                                        .of("clearcoatNormalTexture")
+                                        .number("scale", range::clearcoat_normal_scale, 1);
+    read_thickness_of_film(extensions.of("KHR_materials_iridescence"), result);
     const float strength = extensions.of("KHR_materials_emissive_strength")
                                .number("emissiveStrength", range::emission, 1);
     for (float &component : result.emission) {
@@ -282,8 +258,7 @@ glint_material read_factors_at(const json &object, const Place &place, std::vect
     metal.color("baseColorFactor", 4, share, rgba);
     std::copy(rgba, rgba + 3, result.base_color);
     result.alpha = rgba[3];
-    result.metallic = metal.number("metallicFactor", range::metallic, 1);
-    result.roughness = metal.number("roughnessFactor", range::roughness, 1);
+    read_plain_values(material, result);
     // Older exporters wrote bright lamps without KHR_materials_emissive_strength.
     material.color("emissiveFactor", 3, range::emission, result.emission);
     read_alpha(material, result);

@@ -56,8 +56,9 @@ typedef struct field_row {
               .step = sizeof((type *)0)->member[0])
 #define NUMBERS(table, type, member, kind, count, low_, high_)                                     \
     FIELD_ROW(table, type, member, kind, .of = (count), .low = (low_), .high = (high_))
-#define FLOATS_OF_MATERIAL(member, count, low, high)                                               \
-    NUMBERS(materials, glint_document_material, material.member, FLOATS, count, low, high),
+#define FLOATS_OF_MATERIAL(kind, name, least, most, ...)                                           \
+    NUMBERS(materials, glint_document_material, material.name, FLOATS,                             \
+            sizeof((glint_material *)0)->name / sizeof(float), least, most),
 #define OF_TEXTURES(member, kind, of_, most_)                                                      \
     FIELD_ROW(materials, glint_document_material, material.textures[0].member, kind, .of = (of_),  \
               .most = (most_), .repeats = GLINT_TEXTURE_SLOTS, .step = sizeof(glint_texture_use),  \
@@ -111,7 +112,7 @@ static const field_row fields[] = {
     SEVERAL(materials, glint_document_material, texture_keys, TEXT, 0, GLINT_TEXTURE_SLOTS),
     FIELD(materials, glint_document_material, missing, RUN, GLINT_TABLE_missing),
     FIELD(materials, glint_document_material, notes, RUN, GLINT_TABLE_notes),
-    GLINT_MATERIAL_FACTORS(FLOATS_OF_MATERIAL)
+    GLINT_MATERIAL_TABLE(FLOATS_OF_MATERIAL)
         FIELD(materials, glint_document_material, material.unlit, FLAG, 0),
     FIELD(materials, glint_document_material, material.has_vertex_colors, FLAG, 0),
     WITHIN(materials, glint_document_material, material.alpha_mode, 0, GLINT_ALPHA_BLEND),

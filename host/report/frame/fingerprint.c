@@ -72,40 +72,12 @@ static void add_textures(XXH3_state_t *state, const glint_textures *textures)
 
 static void add_material(XXH3_state_t *state, const glint_material *m)
 {
-    const double numbers[] = {(double)m->metallic,
-                              (double)m->roughness,
-                              (double)m->transmission,
-                              (double)m->ior,
-                              (double)m->thickness,
-                              (double)m->attenuation_distance,
-                              m->unlit ? 1 : 0,
-                              (double)m->mirror,
-                              (double)m->priority,
-                              (double)m->alpha_mode,
-                              (double)m->alpha,
-                              (double)m->alpha_cutoff,
-                              (double)m->normal_scale,
-                              (double)m->occlusion_strength,
-                              (double)m->specular,
-                              (double)m->clearcoat,
-                              (double)m->clearcoat_roughness,
-                              (double)m->clearcoat_normal_scale,
-                              (double)m->dispersion,
-                              (double)m->anisotropy,
-                              (double)m->anisotropy_rotation,
-                              (double)m->iridescence,
-                              (double)m->iridescence_ior,
-                              (double)m->iridescence_thickness[0],
-                              (double)m->iridescence_thickness[1],
-                              (double)m->sheen_roughness,
-                              (double)m->diffuse_transmission};
-    add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
-    add_array(state, m->base_color, sizeof *m->base_color, 3);
-    add_array(state, m->emission, sizeof *m->emission, 3);
-    add_array(state, m->attenuation_color, sizeof *m->attenuation_color, 3);
-    add_array(state, m->specular_color, sizeof *m->specular_color, 3);
-    add_array(state, m->diffuse_transmission_color, sizeof *m->diffuse_transmission_color, 3);
-    add_array(state, m->sheen_color, sizeof *m->sheen_color, 3);
+    for (size_t i = 0; i < glint_material_value_count; i++) {
+        const glint_material_value *value = &glint_material_values[i];
+        add_array(state, (const char *)m + value->offset, sizeof(float), (size_t)value->count);
+    }
+    const double choices[] = {m->unlit ? 1 : 0, (double)m->alpha_mode};
+    add_numbers(state, choices, sizeof choices / sizeof *choices);
     for (int slot = 0; slot < GLINT_TEXTURE_SLOTS; slot++) {
         add_texture_use(state, &m->textures[slot]);
     }

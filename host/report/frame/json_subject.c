@@ -3,6 +3,8 @@
 #include "render/settings_table.h"
 #include "report/json.h"
 
+#include <stdio.h>
+
 static json_t *triple(double x, double y, double z)
 {
     const double values[3] = {x, y, z};
@@ -184,48 +186,41 @@ static json_t *textures_array(const glint_material *material)
     return array;
 }
 
+// A distance that is infinite becomes null: no attenuation at any distance.
+static void put_value(json_t *object, const glint_material_value *value,
+                      const glint_material *material)
+{
+    const float *numbers = (const float *)((const char *)material + value->offset);
+    if (value->count == 3) {
+        glint_json_put(object, value->name, color(numbers));
+    } else if (value->count == 2) {
+        char name[64];
+        snprintf(name, sizeof name, "%s_minimum", value->name);
+        glint_json_put_real(object, name, (double)numbers[0]);
+        snprintf(name, sizeof name, "%s_maximum", value->name);
+        glint_json_put_real(object, name, (double)numbers[1]);
+    } else {
+        glint_json_put_real(object, value->name, (double)numbers[0]);
+    }
+}
+
 static json_t *material_object(const glint_material *material)
 {
     json_t *object = json_object();
     glint_json_put_text(object, "name", material->name);
     glint_json_put(object, "index", json_integer(material->index));
     glint_json_put_text(object, "kind", glint_material_kind(material));
-    glint_json_put(object, "base_color", color(material->base_color));
-    glint_json_put_real(object, "metallic", (double)material->metallic);
-    glint_json_put_real(object, "roughness", (double)material->roughness);
-    glint_json_put(object, "emission", color(material->emission));
-    glint_json_put_real(object, "transmission", (double)material->transmission);
-    glint_json_put_real(object, "ior", (double)material->ior);
-    glint_json_put_real(object, "thickness", (double)material->thickness);
-    // null: no attenuation at any distance
-    glint_json_put_real(object, "attenuation_distance", (double)material->attenuation_distance);
-    glint_json_put(object, "attenuation_color", color(material->attenuation_color));
-    glint_json_put_real(object, "specular", (double)material->specular);
-    glint_json_put(object, "specular_color", color(material->specular_color));
-    glint_json_put_real(object, "dispersion", (double)material->dispersion);
-    glint_json_put_real(object, "anisotropy", (double)material->anisotropy);
-    glint_json_put_real(object, "anisotropy_rotation", (double)material->anisotropy_rotation);
-    glint_json_put(object, "sheen_color", color(material->sheen_color));
-    glint_json_put_real(object, "sheen_roughness", (double)material->sheen_roughness);
-    glint_json_put_real(object, "diffuse_transmission", (double)material->diffuse_transmission);
-    glint_json_put(object, "diffuse_transmission_color",
-                   color(material->diffuse_transmission_color));
-    glint_json_put_real(object, "iridescence", (double)material->iridescence);
-    glint_json_put_real(object, "iridescence_ior", (double)material->iridescence_ior);
-    glint_json_put_real(object, "iridescence_thickness_minimum",
-                        (double)material->iridescence_thickness[0]);
-    glint_json_put_real(object, "iridescence_thickness_maximum",
-                        (double)material->iridescence_thickness[1]);
-    glint_json_put_real(object, "clearcoat", (double)material->clearcoat);
-    glint_json_put_real(object, "clearcoat_roughness", (double)material->clearcoat_roughness);
+    for (size_t i = 0; i < glint_material_value_count; i++) {
+        put_value(object, &glint_material_values[i], material);
+    }
     glint_json_put_flag(object, "unlit", material->unlit);
     static const char *const modes[] = {"opaque", "mask", "blend"};
     glint_json_put_text(object, "alpha_mode", modes[material->alpha_mode]);
     glint_json_put(object, "textures", textures_array(material));
     glint_json_put_flag(object, "vertex_colors", material->has_vertex_colors);
-    glint_json_put(object, "mirror",
-                   material->mirror < 0 ? json_null() : json_real((double)material->mirror));
-    glint_json_put_real(object, "priority", (double)material->priority);
+    if (material->mirror < 0) {
+        glint_json_put(object, "mirror", json_null());
+    }
     return object;
 }
 

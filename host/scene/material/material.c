@@ -3,21 +3,38 @@
 
 #include "kernels/layout.h"
 
+#include <float.h>
 #include <math.h>
 
-const glint_material glint_material_default = {GLINT_MATERIAL_CLEAR,
-                                               .base_color = {1, 1, 1},
-                                               .metallic = 1,
-                                               .roughness = 1,
-                                               .mirror = -1,
-                                               .alpha = 1,
-                                               .alpha_cutoff = 0.5F,
-                                               .normal_scale = 1,
-                                               .occlusion_strength = 1,
-                                               .clearcoat_normal_scale = 1,
-                                               .iridescence_ior = 1.3F,
-                                               .iridescence_thickness = {100, 400},
-                                               .diffuse_transmission_color = {1, 1, 1}};
+#define START_NUMBER(start) start
+#define START_COLOR(start)                                                                         \
+    {                                                                                              \
+        start, start, start                                                                        \
+    }
+#define START_PAIR(start)                                                                          \
+    {                                                                                              \
+        TWO start                                                                                  \
+    }
+#define TWO(first, second) first, second
+#define START(kind, name_, least, most, start, ...) .name_ = START_##kind(start),
+const glint_material glint_material_default = {GLINT_MATERIAL_TABLE(START)};
+#undef START
+
+enum { NUMBER = 1, PAIR = 2, COLOR = 3 };
+#define CORE NULL
+#define ROW(kind, name_, least_, most_, start, extension_, key_, meaning)                          \
+    {.name = #name_,                                                                               \
+     .offset = offsetof(glint_material, name_),                                                    \
+     .count = (kind),                                                                              \
+     .least = (double)(least_),                                                                    \
+     .most = (double)(most_),                                                                      \
+     .extension = (extension_),                                                                    \
+     .key = (key_)},
+const glint_material_value glint_material_values[] = {GLINT_MATERIAL_TABLE(ROW)};
+const size_t glint_material_value_count =
+    sizeof glint_material_values / sizeof *glint_material_values;
+#undef ROW
+#undef CORE
 
 static bool is_white(const float color[3])
 {

@@ -2,6 +2,7 @@
 #ifndef GLINT_SCENE_MATERIAL_MATERIAL_H
 #define GLINT_SCENE_MATERIAL_MATERIAL_H
 
+#include "scene/material/material_values.h"
 #include "scene/texture/texture.h"
 
 #include <math.h>
@@ -23,86 +24,36 @@ typedef enum glint_alpha_mode {
     GLINT_ALPHA_BLEND,  // alpha is the surface's coverage; the rest of the light goes straight on
 } glint_alpha_mode;
 
-// The factors of glTF 2.0 and of the supported extensions. Colours are linear Rec.709 in [0, 1].
+// The factors of glTF 2.0 and of the supported extensions: material_values.h says what they mean.
 typedef struct glint_material {
     char *name; // may be NULL; owned
     int index;  // in the file; for glTF's default material, the number of materials in the file
-    float base_color[3];
-    float metallic;             // [0, 1]
-    float roughness;            // [0, 1]
-    float emission[3];          // emissiveFactor × emissiveStrength, radiance ≥ 0
-    float transmission;         // KHR_materials_transmission, [0, 1]
-    float ior;                  // KHR_materials_ior, from 1 to GLINT_IOR_INFINITE; default 1.5
-    float thickness;            // KHR_materials_volume: > 0 makes the mesh a solid's boundary
-    float attenuation_distance; // metres; INFINITY if the file gives none
-    float attenuation_color[3]; // colour of white light after attenuation_distance
-    float dispersion;           // KHR_materials_dispersion, 20/Abbe number, ≥ 0; for solids
-    float specular;          // KHR_materials_specular, [0, 1]: scales reflection of paint and glass
-    float specular_color[3]; // KHR_materials_specular, ≥ 0: scales reflection at normal incidence
-    float clearcoat;         // KHR_materials_clearcoat, [0, 1]: weight of the coat
-    float clearcoat_roughness; // roughness of the coat, [0, 1]
-    float iridescence;         // KHR_materials_iridescence, [0, 1]: weight of the film
-    float iridescence_ior;     // index of refraction of the film, ≥ 1
-    // Thickness of the film, nm, ≥ 0, for texture values 0 and 1. Without a texture the last value
-    // counts.
-    float iridescence_thickness[2];
-    float anisotropy;          // KHR_materials_anisotropy, [0, 1]: strength
-    float anisotropy_rotation; // radians, from the tangent towards the bitangent
-    float sheen_color[3];      // KHR_materials_sheen, [0, 1]: black is no sheen
-    float sheen_roughness;     // [0, 1]
-    // KHR_materials_diffuse_transmission, [0, 1]: the share of paint's diffuse light that comes
-    // from behind, and its colour.
-    float diffuse_transmission;
-    float diffuse_transmission_color[3];
-    bool unlit;   // KHR_materials_unlit
-    float mirror; // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
-    // Priority where solids overlap, extras {"glint": {"priority": p}}; see solids.h.
-    float priority;
+#define GLINT_DECLARE_NUMBER(name) float name
+#define GLINT_DECLARE_COLOR(name) float name[3]
+#define GLINT_DECLARE_PAIR(name) float name[2]
+#define GLINT_DECLARE(kind, name, ...) GLINT_DECLARE_##kind(name);
+    GLINT_MATERIAL_TABLE(GLINT_DECLARE)
+#undef GLINT_DECLARE
+    bool unlit; // KHR_materials_unlit
     glint_alpha_mode alpha_mode;
-    float alpha;        // A of baseColorFactor, [0, 1]
-    float alpha_cutoff; // for GLINT_ALPHA_MASK
     glint_texture_use textures[GLINT_TEXTURE_SLOTS];
-    float normal_scale;           // scales x and y of the normal texture's normals
-    float clearcoat_normal_scale; // scales x and y of the clear coat's normals
-    float occlusion_strength;     // [0, 1]
-    bool has_vertex_colors;       // some triangles have colours at their vertices
+    bool has_vertex_colors; // some triangles have colours at their vertices
     // Of the first warnings that loading gave: bit i is set if warning i concerns this material.
     uint64_t warnings;
 } glint_material;
 
-// The factors, and the ranges in which they count: FACTOR(member, numbers, least, most). Who
-// includes this for the ranges includes <float.h>, too.
-#define GLINT_MATERIAL_FACTORS(FACTOR)                                                             \
-    FACTOR(base_color, 3, 0, 1)                                                                    \
-    FACTOR(metallic, 1, 0, 1)                                                                      \
-    FACTOR(roughness, 1, 0, 1)                                                                     \
-    FACTOR(emission, 3, 0, FLT_MAX)                                                                \
-    FACTOR(transmission, 1, 0, 1)                                                                  \
-    FACTOR(ior, 1, 1, GLINT_IOR_INFINITE)                                                          \
-    FACTOR(thickness, 1, 0, FLT_MAX)                                                               \
-    FACTOR(attenuation_distance, 1, FLT_MIN, INFINITY)                                             \
-    FACTOR(attenuation_color, 3, 0, 1)                                                             \
-    FACTOR(dispersion, 1, 0, FLT_MAX)                                                              \
-    FACTOR(specular, 1, 0, 1)                                                                      \
-    FACTOR(specular_color, 3, 0, FLT_MAX)                                                          \
-    FACTOR(clearcoat, 1, 0, 1)                                                                     \
-    FACTOR(clearcoat_roughness, 1, 0, 1)                                                           \
-    FACTOR(iridescence, 1, 0, 1)                                                                   \
-    FACTOR(iridescence_ior, 1, 1, FLT_MAX)                                                         \
-    FACTOR(iridescence_thickness, 2, 0, FLT_MAX)                                                   \
-    FACTOR(anisotropy, 1, 0, 1)                                                                    \
-    FACTOR(anisotropy_rotation, 1, -FLT_MAX, FLT_MAX)                                              \
-    FACTOR(sheen_color, 3, 0, 1)                                                                   \
-    FACTOR(sheen_roughness, 1, 0, 1)                                                               \
-    FACTOR(diffuse_transmission, 1, 0, 1)                                                          \
-    FACTOR(diffuse_transmission_color, 3, 0, 1)                                                    \
-    FACTOR(mirror, 1, -1, 1)                                                                       \
-    FACTOR(priority, 1, -1e6, 1e6)                                                                 \
-    FACTOR(alpha, 1, 0, 1)                                                                         \
-    FACTOR(alpha_cutoff, 1, 0, FLT_MAX)                                                            \
-    FACTOR(normal_scale, 1, -FLT_MAX, FLT_MAX)                                                     \
-    FACTOR(clearcoat_normal_scale, 1, -FLT_MAX, FLT_MAX)                                           \
-    FACTOR(occlusion_strength, 1, 0, 1)
+// A row of material_values.h.
+typedef struct glint_material_value {
+    const char *name;
+    size_t offset; // in glint_material
+    int count;     // of its numbers
+    double least, most;
+    const char *extension; // of glTF; NULL: pbrMetallicRoughness
+    const char *key;       // NULL: read by code of its own
+} glint_material_value;
+
+extern const glint_material_value glint_material_values[];
+extern const size_t glint_material_value_count;
 
 // Initialisers for values that a file leaves out: of KHR_materials_specular; and of specular and
 // glass.
