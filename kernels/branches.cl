@@ -195,6 +195,7 @@ static inline void take_branches(branches *b, path *rays, pixels *pixels, mask *
     for (int kind = 1; kind < BRANCH_KINDS; kind++) {
         ends[kind] += ends[kind - 1];
     }
+    // Start all rays: unused lanes, and members that do not wait, keep these values.
     for (int g = 0; g < TILE_GROUPS; g++) {
         rays[g] = path_at_start();
     }

@@ -67,8 +67,7 @@ typedef struct glint_bvh {
 
 // Triangles as a scene holds them. Pointers are borrowed.
 typedef struct glint_bvh_inputs {
-    // [triangle_count][3], the triangles' vertices. NULL: corner c of triangle t is vertex 3 t + c.
-    const uint32_t *indices;
+    const uint32_t *indices; // [triangle_count][3] or NULL, see glint_triangle_vertex
     const float *positions;  // [vertex][3], magnitudes below GLINT_FAR
     const float *told;       // positions relative to their parts' anchors; NULL: there are no parts
     const uint32_t *part_of; // [triangle_count], the part of each triangle; only with parts
@@ -81,13 +80,6 @@ typedef struct glint_bvh_inputs {
     size_t threads; // 0: one per core; the tree is the same for any number
 } glint_bvh_inputs;
 
-// Returns the vertex at corner 0, 1 or 2 of a triangle.
-static inline size_t glint_bvh_vertex(const glint_bvh_inputs *in, size_t triangle, size_t corner)
-{
-    const size_t at = 3 * triangle + corner;
-    return in->indices != NULL ? in->indices[at] : at;
-}
-
 // Returns three floats of a corner: its position or normal.
 typedef const float *glint_bvh_value(const glint_bvh_inputs *in, size_t triangle, size_t corner);
 
@@ -96,15 +88,16 @@ static inline const float *glint_bvh_told(const glint_bvh_inputs *in, size_t tri
                                           size_t corner)
 {
     return (in->told != NULL ? in->told : in->positions) +
-           3 * glint_bvh_vertex(in, triangle, corner);
+           3 * glint_triangle_vertex(in->indices, triangle, corner);
 }
 
 // Returns a corner's normal; only with normals.
 static inline const float *glint_bvh_normal(const glint_bvh_inputs *in, size_t triangle,
                                             size_t corner)
 {
-    return in->normals + 3 * (in->has_normals_by_corner ? 3 * triangle + corner
-                                                        : glint_bvh_vertex(in, triangle, corner));
+    return in->normals + 3 * (in->has_normals_by_corner
+                                  ? 3 * triangle + corner
+                                  : glint_triangle_vertex(in->indices, triangle, corner));
 }
 
 static inline bool glint_bvh_has_area(const glint_bvh_inputs *in, size_t triangle)

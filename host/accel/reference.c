@@ -11,7 +11,7 @@ static inline bool belong_together(glint_box common, float areas)
 
 static inline glint_float4 point_at(const glint_bvh_inputs *in, size_t triangle, size_t corner)
 {
-    const float *p = in->positions + 3 * glint_bvh_vertex(in, triangle, corner);
+    const float *p = in->positions + 3 * glint_triangle_vertex(in->indices, triangle, corner);
     return (glint_float4){p[0], p[1], p[2], 0};
 }
 

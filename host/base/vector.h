@@ -4,6 +4,8 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -61,6 +63,14 @@ glint_vec3 glint_vec3_normalize(glint_vec3 a);
 // True if the corners (all finite) are not in line. The test is exact if they lie within 2^29 of
 // one another; farther apart, their differences are rounded.
 bool glint_triangle_has_area(const float a[3], const float b[3], const float c[3]);
+
+// Returns the vertex at corner 0, 1 or 2 of a triangle. `indices` are [triangle][3]; NULL: corner c
+// of triangle t is vertex 3 t + c.
+static inline size_t glint_triangle_vertex(const uint32_t *indices, size_t triangle, size_t corner)
+{
+    const size_t at = 3 * triangle + corner;
+    return indices != NULL ? indices[at] : at;
+}
 
 extern const glint_mat4 glint_mat4_identity;
 

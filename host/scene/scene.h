@@ -140,8 +140,7 @@ static inline size_t glint_scene_vertex_count(const glint_scene *scene)
 // Returns the vertex at corner 0, 1 or 2 of a triangle.
 static inline size_t glint_scene_vertex(const glint_scene *scene, size_t triangle, size_t corner)
 {
-    const size_t at = 3 * triangle + corner;
-    return scene->indices != NULL ? scene->indices[at] : at;
+    return glint_triangle_vertex(scene->indices, triangle, corner);
 }
 
 // Returns a corner's position, 3 floats in stored coordinates.

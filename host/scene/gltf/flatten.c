@@ -32,10 +32,11 @@ typedef struct scene_writer {
     float low[3], high[3];
 } scene_writer;
 
-// The places of a draw that its corners may have.
+// The places that a draw's corners may have: as many as its triangles need, not as many as its
+// arrays have. Files share large arrays among many primitives.
 typedef struct draw_places {
-    size_t first, count; // numbers of places: elements of the shape, or vertices
-    bool is_per_corner;  // each corner has a place of its own: 3 t + c
+    size_t first, count; // vertices of the file; count is at most the number of corners
+    bool is_per_corner;  // instead, each corner has a place of its own: 3 t + c
 } draw_places;
 
 // What the vertices of a draw share.
@@ -59,16 +60,15 @@ static float *told_at(const glint_scene *scene, size_t vertex)
     return (scene->parts.count > 0 ? scene->parts.positions : scene->positions) + 3 * vertex;
 }
 
-// Counts as many places as the draw's triangles need, not as many as its arrays have: files share
-// large arrays among many primitives.
 static draw_places places_of(const glint_draw *draw)
 {
     const glint_primitive *primitive = draw->primitive;
     const size_t corners = 3 * primitive->triangles, vertices = primitive->positions.count;
-    if (draw->shape != NULL) {
-        return (draw_places){0, draw->shape->is_per_corner ? corners : vertices, false};
+    const draw_places per_corner = {0, corners, true};
+    if (draw->shape != NULL && draw->shape->is_per_corner) {
+        return per_corner;
     }
-    if (vertices <= 3 * corners) {
+    if (vertices <= corners) {
         return (draw_places){0, vertices, false};
     }
     size_t low = vertices, high = 0;
@@ -77,18 +77,15 @@ static draw_places places_of(const glint_draw *draw)
         low = vertex < low ? vertex : low;
         high = vertex > high ? vertex : high;
     }
-    return corners > 0 && high - low < 3 * corners ? (draw_places){low, high - low + 1, false}
-                                                   : (draw_places){0, corners, true};
+    return corners > 0 && high - low < corners ? (draw_places){low, high - low + 1, false}
+                                               : per_corner;
 }
 
-static known_vertex *known_at(const scene_writer *writer, const draw_writer *of,
-                              const glint_corners *corners, size_t c)
+// The number of the place of a triangle's corner in the stored order, from 0.
+static size_t place_at(const draw_places *places, const glint_corners *corners, size_t c)
 {
-    const glint_corner *corner = &corners->of[c];
-    const size_t place = of->places.is_per_corner  ? 3 * corners->triangle + c
-                         : of->draw->shape != NULL ? corner->element
-                                                   : corner->vertex;
-    return &writer->known[place - of->places.first];
+    return places->is_per_corner ? 3 * corners->triangle + c
+                                 : corners->of[c].vertex - places->first;
 }
 
 static bool is_known(const scene_writer *writer, const known_vertex *known, uint32_t part)
@@ -101,7 +98,7 @@ static void tell_corners(const scene_writer *writer, const draw_writer *of,
                          const glint_corners *corners, uint32_t part, float told[3][3])
 {
     for (size_t c = 0; c < 3; c++) {
-        const known_vertex *known = known_at(writer, of, corners, c);
+        const known_vertex *known = &writer->known[place_at(&of->places, corners, c)];
         if (is_known(writer, known, part)) {
             memcpy(told[c], told_at(writer->scene, known->number - 1), sizeof told[c]);
         } else {
@@ -178,7 +175,7 @@ static void write_triangle(scene_writer *writer, const draw_writer *of,
         return;
     }
     for (size_t c = 0; c < 3; c++) {
-        known_vertex *known = known_at(writer, of, corners, c);
+        known_vertex *known = &writer->known[place_at(&of->places, corners, c)];
         if (!is_known(writer, known, part)) {
             known->number = write_vertex(writer, of, &corners->of[c], part, told[c]) + 1;
             known->part = part;
@@ -297,21 +294,11 @@ static glint_status allocate(scene_writer *writer, const scene_size *size, glint
 static void finish_arrays(glint_scene *scene)
 {
     (void)glint_scene_resize_vertices(scene, scene->vertex_count);
-    if (scene->vertex_count ==
-        3 * scene->triangle_count) { // the corners are numbered in their order
+    if (scene->vertex_count == 3 * scene->triangle_count) {
         free(scene->indices);
         scene->indices = NULL;
         scene->vertex_count = 0;
     }
-}
-
-// The number of places that a draw's corners have: its vertices, or its corners if most vertices
-// belong to no triangle.
-static size_t count_places(const glint_draw *draw)
-{
-    const size_t vertices = draw->primitive->positions.count,
-                 triangles = draw->primitive->triangles;
-    return triangles == 0 || vertices / 3 > triangles ? 3 * triangles : vertices;
 }
 
 // All places and corners, as they are written.
@@ -322,33 +309,35 @@ typedef struct exact_writer {
     size_t place_count, corner_count;
 } exact_writer;
 
-static glint_corner corner_at_place(const glint_draw *draw, size_t place, bool is_per_corner)
+static void write_place(exact_writer *writer, const glint_draw *draw, glint_vec3 local)
 {
-    return is_per_corner         ? glint_draw_corner(draw, place / 3, place % 3)
-           : draw->shape != NULL ? (glint_corner){place, place, draw->shape->positions[place]}
-                                 : glint_draw_vertex(draw, place);
+    const glint_vec3 p = stored_place(writer->scene, draw, local);
+    memcpy(writer->places + 3 * writer->place_count++, (const double[3]){p.x, p.y, p.z},
+           3 * sizeof(double));
 }
 
 // Writes a draw's places, and the corners of its triangles that are not collapsed.
 static void write_exact(exact_writer *writer, const glint_draw *draw)
 {
-    const size_t base = writer->place_count, count = count_places(draw);
-    const bool is_per_corner = count != draw->primitive->positions.count;
-    for (size_t i = 0; i < count; i++) {
-        const glint_corner corner = corner_at_place(draw, i, is_per_corner);
-        const glint_vec3 p = stored_place(writer->scene, draw, corner.local);
-        double *place = writer->places + 3 * writer->place_count++;
-        place[0] = p.x;
-        place[1] = p.y;
-        place[2] = p.z;
+    const draw_places places = places_of(draw);
+    const size_t base = writer->place_count;
+    for (size_t i = 0; !places.is_per_corner && i < places.count; i++) {
+        const size_t vertex = places.first + i;
+        write_place(writer, draw,
+                    draw->shape != NULL ? draw->shape->positions[vertex]
+                                        : glint_draw_vertex(draw, vertex).local);
     }
     for (size_t t = 0; t < draw->primitive->triangles; t++) {
-        const bool winds_back = glint_draw_winds_back(draw, t);
-        const glint_corners at = glint_draw_corners(draw, t, winds_back);
-        for (size_t c = 0; !glint_corners_are_collapsed(&at) && c < 3; c++) {
-            const size_t from = 3 * t + (winds_back && c > 0 ? 3 - c : c);
-            const size_t place = base + (is_per_corner ? from : at.of[c].vertex);
-            writer->corners[writer->corner_count++] = (uint32_t)place;
+        const glint_corners at = glint_draw_corners(draw, t, glint_draw_winds_back(draw, t));
+        const bool counts = !glint_corners_are_collapsed(&at);
+        for (size_t c = 0; c < 3; c++) {
+            if (places.is_per_corner) {
+                write_place(writer, draw, at.of[c].local);
+            }
+            if (counts) {
+                const size_t place = base + place_at(&places, &at, c);
+                writer->corners[writer->corner_count++] = (uint32_t)place;
+            }
         }
     }
 }
@@ -360,7 +349,7 @@ static glint_status find_parts(const glint_load *load, size_t triangles, glint_s
 {
     size_t places = 0;
     for (size_t i = 0; i < load->draw_count; i++) {
-        places += count_places(&load->draws[i]);
+        places += places_of(&load->draws[i]).count;
     }
     exact_writer writer = {.scene = scene,
                            .places = glint_allocate_unset(places, 3 * sizeof(double)),
@@ -422,9 +411,9 @@ static scene_size measure(const glint_load *load, const glint_scene *scene)
     for (size_t i = 0; i < load->draw_count; i++) {
         const glint_draw *draw = &load->draws[i];
         const glint_primitive *primitive = draw->primitive;
-        const size_t corners = 3 * primitive->triangles, places = places_of(draw).count;
+        const size_t places = places_of(draw).count;
         size.triangles += primitive->triangles; // at most 2^22 draws of 2^40
-        size.vertices += places < corners && scene->parts.count == 0 ? places : corners;
+        size.vertices += scene->parts.count == 0 ? places : 3 * primitive->triangles;
         size.places = places > size.places ? places : size.places;
         size.with_normals = size.with_normals || primitive->normals.count > 0;
     }

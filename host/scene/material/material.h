@@ -48,8 +48,8 @@ typedef struct glint_material_value {
     size_t offset; // in glint_material
     int count;     // of its numbers
     double least, most;
-    const char *extension; // of glTF; NULL: pbrMetallicRoughness
-    const char *key;       // NULL: read by code of its own
+    const char *extension; // of glTF; NULL: none
+    const char *key;       // in the extension, else in pbrMetallicRoughness; NULL: see factors.cpp
 } glint_material_value;
 
 extern const glint_material_value glint_material_values[];

@@ -1,14 +1,16 @@
-// The numbers of a material: a row for each. The host makes of this table the struct, its defaults,
-// the ranges that it checks, the reading from glTF, fingerprints and JSON.
+// The numbers of a material: a row for each. The host expands this table to the struct, its
+// defaults, the ranges that it checks, the reading from glTF, fingerprints and JSON.
 #ifndef GLINT_SCENE_MATERIAL_MATERIAL_VALUES_H
 #define GLINT_SCENE_MATERIAL_MATERIAL_VALUES_H
 
 // VALUE(kind, name, least, most, start, extension, key, meaning)
 //   kind       NUMBER; COLOR: three numbers, linear Rec. 709; PAIR: two numbers
 //   least, most  the range in which the numbers count
-//   start      the default of a file that does not give the value; a PAIR's stand in parentheses
-//   extension  of glTF; CORE: pbrMetallicRoughness
-//   key        there; NULL: read by code of its own (decoder/factors.cpp)
+//   start      the default, where a file does not give the value; a PAIR's two stand in parentheses
+//   extension  the glTF extension that gives the value; CORE: none
+//   key        in the extension, or in pbrMetallicRoughness; NULL: decoder/factors.cpp reads the
+//   value
+//              by code of its own
 // Whoever expands the ranges includes <float.h> and <math.h>.
 #define GLINT_MATERIAL_TABLE(VALUE)                                                                \
     VALUE(COLOR, base_color, 0, 1, 1, CORE, NULL, "R, G and B of baseColorFactor")                 \
@@ -61,9 +63,9 @@
           "iridescenceIor", "index of refraction of the film")                                     \
     VALUE(PAIR, iridescence_thickness, 0, FLT_MAX, (100, 400), "KHR_materials_iridescence", NULL,  \
           "of the film, nm, for texture values 0 and 1; without a texture the last counts")        \
-    VALUE(NUMBER, mirror, -1, 1, -1, "", NULL,                                                     \
+    VALUE(NUMBER, mirror, -1, 1, -1, CORE, NULL,                                                   \
           "the lecture's blend, extras {\"glint\": {\"mirror\": m}}; else -1")                     \
-    VALUE(NUMBER, priority, -1e6, 1e6, 0, "", NULL,                                                \
+    VALUE(NUMBER, priority, -1e6, 1e6, 0, CORE, NULL,                                              \
           "where solids overlap, extras {\"glint\": {\"priority\": p}}; see solids.h")
 
 #endif

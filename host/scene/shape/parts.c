@@ -6,6 +6,7 @@
 #include "base/hash_table.h"
 #include "base/memory.h"
 #include "base/union_find.h"
+#include "base/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -41,7 +42,7 @@ bool glint_parts_may_be_there(double smallest_triangle)
 
 static uint32_t vertex_of(const glint_exact_triangles *exact, uint32_t corner)
 {
-    return exact->corners != NULL ? exact->corners[corner] : corner;
+    return (uint32_t)glint_triangle_vertex(exact->corners, 0, corner);
 }
 
 // A vertex's place, exact or rounded to floats.
